@@ -8,14 +8,15 @@
 !>
 !> With elastic teeth each film has its logarithm and its spring a compression d,
 !>
-!>     h' = w(h, d k) ,   d' = h' - v ,   v' = (d_1 k - d_2 k - F(t))/m - g ,
+!>     h' = w(h, d k) ,   (d + b(h, d k))' = h' - v ,   v' = (d_1 k - d_2 k - F(t))/m - g ,
 !>
-!> with w the velocity at which the film carries the load, or W(h, h') = d k where it may pull; at the coast flank the
+!> with w the velocity at which the film carries the load, or W(h, h') = d k where it may pull, and b what flanks that bend give by
+!> their width beside the springs, 0 of others; at the coast flank the
 !> velocity of the gear counts backwards. After each step the thicker film is what the thinner one, the springs and the backlash
 !> leave of the backlash.
 module impact_steps
    use engine, only: motion_state_t
-   use film_law, only: film_load, film_t, never_pulls, overflow_load, squeeze_velocity
+   use film_law, only: film_load, film_over_gap, film_t, never_pulls, overflow_load, squeeze_velocity, width_compression
    use kinds, only: dp
    use lobatto_rule, only: lobatto_rule_t, nodes, solve_linear
    use problem, only: of_drive_compression, of_film, of_velocity, problem_t
@@ -110,8 +111,26 @@ contains
       state%velocity = start%numbers(of_velocity)
       state%compression = 0.0_dp
       state%compression(:size(start%numbers) - of_velocity) = start%numbers(of_drive_compression:)
-      if (lane%backlash < huge(1.0_dp)) state%coast = lane%backlash - state%film + sum(state%compression)
+      if (.not. lane%backlash < huge(1.0_dp)) return
+      state%coast = lane%backlash - state%film
+      if (lane%contact%compliance > 0.0_dp) state%coast = thicker_film(tooth_of_lane(lane), state%film, state%compression, 1)
    end function start_of_tooth
+
+   !> Film of the other flank: what the backlash, the film of one flank and all that gives leave.
+   pure real(dp) function thicker_film(tooth, thinner, compression, flank) result(film)
+      type(tooth_t), intent(in) :: tooth
+      !> [m]
+      real(dp), intent(in) :: thinner
+      !> Of the springs of both flanks [m]
+      real(dp), intent(in) :: compression(2)
+      !> That of the given film
+      integer, intent(in) :: flank
+      real(dp) :: width, by_film, by_load, gap
+
+      call width_compression(tooth%film, thinner, compression(flank)/tooth%compliance, width, by_film, by_load)
+      gap = tooth%backlash - thinner + sum(compression) + width
+      film = film_over_gap(tooth%film, gap, compression(3 - flank)/tooth%compliance, gap)
+   end function thicker_film
 
    !> Disturb the force by a share of all of it.
    pure subroutine disturb(offset, tooth)
@@ -185,9 +204,9 @@ contains
       state%compression = step%compression(nodes, :)
       if (has_coast(tooth) .and. tooth%compliance > 0.0_dp) then
          if (state%film > state%coast) then
-            state%film = tooth%backlash - state%coast + sum(state%compression)
+            state%film = thicker_film(tooth, state%coast, state%compression, 2)
          else
-            state%coast = tooth%backlash - state%film + sum(state%compression)
+            state%coast = thicker_film(tooth, state%film, state%compression, 1)
          end if
       end if
       state%phase = state%phase + length
@@ -286,7 +305,8 @@ contains
    end subroutine set_films
 
    !> Solve the equations of a step of a elastic tooth by Newton's method, and estimate its error. The unknowns are, node by
-   !> node, what has been added to v, to ln h and d of the drive flank, and to those of the coast flank.
+   !> node, what has been added to v, to ln h and d of the drive flank, and to those of the coast flank; the changes of d follow from
+   !> the others.
    pure subroutine solve_elastic_step(tooth, rule, length, state, before, step, error, solved)
       type(tooth_t), intent(in) :: tooth
       type(lobatto_rule_t), intent(in) :: rule
@@ -298,8 +318,12 @@ contains
       !> Relative error between the ends [-]
       real(dp), intent(out) :: error
       logical, intent(out) :: solved
-      real(dp), allocatable :: added(:, :), correction(:), matrix(:, :), residual(:)
-      real(dp), dimension(nodes) :: force, drift, wanted, by_film, by_load
+      real(dp), allocatable :: added(:, :), correction(:)
+      real(dp), allocatable, target :: matrix(:, :)
+      real(dp), pointer :: place(:, :)
+      real(dp), dimension(nodes) :: force, drift, wanted, by_film, by_load, right
+      real(dp), dimension(nodes) :: width, width_by_film, width_by_load, share
+      real(dp) :: pressed(nodes, 2), by_growth(nodes, nodes, 2), by_gain(nodes, nodes, 2), start_width(2), slopes(2, 2), turned
       real(dp) :: films(nodes, 2), loads(nodes, 2), starts(2), unit, seconds, change, last_change, turn, spring(2), largest, load, &
                   load_by_film, load_by_velocity
       integer :: flanks, flank, logarithm, compression, pass, i, outcome
@@ -312,10 +336,13 @@ contains
       seconds = length/tooth%frequency
       flanks = merge(2, 1, has_coast(tooth))
       starts = [state%film, state%coast]
+      start_width = 0.0_dp
+      call width_compression(tooth%film, starts(:flanks), state%compression(:flanks)/tooth%compliance, start_width(:flanks), &
+                             slopes(:flanks, 1), slopes(:flanks, 2))
       force = force_of_tooth(tooth, state%phase + rule%node*length)
       allocate (added(nodes, 1 + 2*flanks), source=0.0_dp)
       call first_added(rule, length, state, before, flanks, added)
-      allocate (matrix(size(added), size(added)), residual(size(added)), correction(size(added)))
+      allocate (matrix(nodes*(1 + flanks), nodes*(1 + flanks)), correction(nodes*(1 + flanks)))
       last_change = huge(1.0_dp)
       do pass = 1, 2*most_passes
          step%velocity = state%velocity + added(:, 1)
@@ -324,14 +351,14 @@ contains
             loads(:, flank) = (state%compression(flank) + added(:, 2*flank + 1))/tooth%compliance
          end do
          matrix = 0.0_dp
-         residual(:nodes) = matmul(rule%differentiate, added(:, 1)) - seconds*(loads(:, 1) - force)/tooth%mass
-         if (flanks == 2) residual(:nodes) = residual(:nodes) + seconds*loads(:, 2)/tooth%mass
-         call add_slopes(1, 1, [(1.0_dp, i=1, nodes)], matrix)
+         right = seconds*(loads(:, 1) - force)/tooth%mass - matmul(rule%differentiate, added(:, 1))
+         if (flanks == 2) right = right - seconds*loads(:, 2)/tooth%mass
+         turned = seconds/(tooth%mass*tooth%compliance)
+         matrix(:nodes, :nodes) = rule%differentiate
          do flank = 1, flanks
             turn = real(3 - 2*flank, dp)
             logarithm = 2*flank
             compression = 2*flank + 1
-            call add_diagonal(1, compression, [(-turn*seconds/(tooth%mass*tooth%compliance), i=1, nodes)], matrix)
             ! Drift: h' of the polynomial.
             drift = films(:, flank)*matmul(rule%differentiate, added(:, logarithm))/seconds
             do i = 1, nodes
@@ -347,30 +374,54 @@ contains
                   by_load(i) = 1.0_dp/load_by_velocity
                end if
             end do
-            call put_rows(residual, logarithm, matmul(rule%differentiate, added(:, logarithm)) - seconds*wanted/films(:, flank))
-            call add_slopes(logarithm, logarithm, [(1.0_dp, i=1, nodes)], matrix)
-            call add_diagonal(logarithm, logarithm, seconds*(drift/films(:, flank) - by_film), matrix)
-            call add_diagonal(logarithm, compression, -seconds*by_load/(films(:, flank)*tooth%compliance), matrix)
-            ! d' = h' - v
-            call put_rows(residual, compression, matmul(rule%differentiate, added(:, compression)) &
-                          - seconds*(drift - turn*step%velocity))
-            call add_slopes(compression, compression, [(1.0_dp, i=1, nodes)], matrix)
-            call add_slopes(compression, logarithm, -films(:, flank), matrix)
-            call add_diagonal(compression, logarithm, -seconds*drift, matrix)
-            call add_diagonal(compression, 1, [(turn*seconds, i=1, nodes)], matrix)
+            ! (d + b)' = h' - v gives the change of d by those of ln h and v: pressed + by_growth*(change of ln h) - by_gain*(that
+            ! of v).
+            call width_compression(tooth%film, films(:, flank), loads(:, flank), width, width_by_film, width_by_load)
+            share = 1.0_dp/(1.0_dp + width_by_load/tooth%compliance)
+            pressed(:, flank) = share*(matmul(rule%integrate, seconds*(drift - turn*step%velocity)) - added(:, compression) &
+                                       - (width - start_width(flank)))
+            do i = 1, nodes
+               by_growth(i, :, flank) = films(i, flank)*rule%differentiate(i, :)
+               by_growth(i, i, flank) = by_growth(i, i, flank) + seconds*drift(i)
+            end do
+            by_growth(:, :, flank) = matmul(rule%integrate, by_growth(:, :, flank))
+            do i = 1, nodes
+               by_growth(i, i, flank) = by_growth(i, i, flank) - width_by_film(i)*films(i, flank)
+               by_growth(i, :, flank) = share(i)*by_growth(i, :, flank)
+               by_gain(i, :, flank) = turn*seconds*share(i)*rule%integrate(i, :)
+            end do
+            matrix(:nodes, :nodes) = matrix(:nodes, :nodes) + turn*turned*by_gain(:, :, flank)
+            right = right + turn*turned*pressed(:, flank)
+            by_load = seconds*by_load/(films(:, flank)*tooth%compliance)
+            correction(nodes*flank + 1:nodes*(flank + 1)) = seconds*wanted/films(:, flank) + by_load*pressed(:, flank) &
+                                                            - matmul(rule%differentiate, added(:, logarithm))
+            place => matrix(:nodes, nodes*flank + 1:nodes*(flank + 1))
+            place = -turn*turned*by_growth(:, :, flank)
+            place => matrix(nodes*flank + 1:nodes*(flank + 1), :nodes)
+            do i = 1, nodes
+               place(i, :) = by_load(i)*by_gain(i, :, flank)
+            end do
+            place => matrix(nodes*flank + 1:nodes*(flank + 1), nodes*flank + 1:nodes*(flank + 1))
+            do i = 1, nodes
+               place(i, :) = rule%differentiate(i, :) - by_load(i)*by_growth(i, :, flank)
+               place(i, i) = place(i, i) + seconds*(drift(i)/films(i, flank) - by_film(i))
+            end do
          end do
-         if (.not. all(abs(residual) < huge(1.0_dp))) return
-         correction = -residual
+         correction(:nodes) = right
+         if (.not. all(abs(correction) < huge(1.0_dp))) return
          call solve_dense(size(correction), matrix, correction, regular)
          if (.not. regular) return
+         do flank = 1, flanks
+            pressed(:, flank) = pressed(:, flank) + matmul(by_growth(:, :, flank), correction(nodes*flank + 1:nodes*(flank + 1))) &
+                                - matmul(by_gain(:, :, flank), correction(:nodes))
+         end do
          unit = unit_of_velocity(tooth, step, films)
          change = maxval(abs(correction(:nodes)))/unit
          largest = 1.0_dp
          rising = .false.
          do flank = 1, flanks
             spring(flank) = maxval(abs(loads(:, flank)))*tooth%compliance
-            associate (grown => correction(nodes*(2*flank - 1) + 1:nodes*2*flank), &
-                       pressed => correction(nodes*2*flank + 1:nodes*(2*flank + 1)))
+            associate (grown => correction(nodes*flank + 1:nodes*(flank + 1)), pressed => pressed(:, flank))
                change = max(change, maxval(abs(grown)), maxval(abs(pressed))/max(spring(flank), 1.0e-12_dp*minval(films)))
                largest = min(largest, 2.0_dp/max(2.0_dp, maxval(abs(grown))))
                ! The load of a film that never pulls stays one, and a pass that has to raise it by much is not the last.
@@ -383,7 +434,11 @@ contains
             end associate
          end do
          if (.not. change < huge(1.0_dp)) return
-         added = added + largest*reshape(correction, shape(added))
+         added(:, 1) = added(:, 1) + largest*correction(:nodes)
+         do flank = 1, flanks
+            added(:, 2*flank) = added(:, 2*flank) + largest*correction(nodes*flank + 1:nodes*(flank + 1))
+            added(:, 2*flank + 1) = added(:, 2*flank + 1) + largest*pressed(:, flank)
+         end do
          if (rising) cycle
          if (change < converged .or. (change < 1.0e-7_dp .and. change > 0.3_dp*last_change)) then
             solved = .true.
@@ -408,48 +463,6 @@ contains
                      tail(rule, matmul(rule%differentiate, added(:, 2*flank + 1)))/minval(films(:, :flanks)))
       end do
       solved = error < huge(1.0_dp)
-
-   contains
-
-      !> Residual of the equations of an unknown.
-      pure subroutine put_rows(residual, unknown, values)
-         real(dp), intent(inout) :: residual(:)
-         integer, intent(in) :: unknown
-         real(dp), intent(in) :: values(nodes)
-
-         residual(nodes*(unknown - 1) + 1:nodes*unknown) = values
-      end subroutine put_rows
-
-      !> Slopes in the derivative of an unknown, times a factor at each node.
-      pure subroutine add_slopes(row, column, factor, matrix)
-         integer, intent(in) :: row
-         integer, intent(in) :: column
-         real(dp), intent(in) :: factor(nodes)
-         real(dp), intent(inout) :: matrix(:, :)
-         integer :: n
-
-         do n = 1, nodes
-            associate (place => matrix(nodes*(row - 1) + n, nodes*(column - 1) + 1:nodes*column))
-               place = place + factor(n)*rule%differentiate(n, :)
-            end associate
-         end do
-      end subroutine add_slopes
-
-      !> Slopes in an unknown at the same node.
-      pure subroutine add_diagonal(row, column, values, matrix)
-         integer, intent(in) :: row
-         integer, intent(in) :: column
-         real(dp), intent(in) :: values(nodes)
-         real(dp), intent(inout) :: matrix(:, :)
-         integer :: n
-
-         do n = 1, nodes
-            associate (place => matrix(nodes*(row - 1) + n, nodes*(column - 1) + n))
-               place = place + values(n)
-            end associate
-         end do
-      end subroutine add_diagonal
-
    end subroutine solve_elastic_step
 
    !> The polynomials of the step before, carried on, or a standstill.

@@ -15,6 +15,8 @@ module lobatto_rule
       real(dp) :: node(nodes) = 0.0_dp, weight(nodes) = 0.0_dp
       !> Inverse of the matrix of the method: values at the nodes less the value at the start, into slopes times the step
       real(dp) :: differentiate(nodes, nodes) = 0.0_dp
+      !> The matrix of the method: slopes times the step at the nodes into what the values have gained
+      real(dp) :: integrate(nodes, nodes) = 0.0_dp
       !> Values at the nodes into coefficients of the Legendre polynomials of degree 0 to nodes - 1
       real(dp) :: to_legendre(nodes, nodes) = 0.0_dp
    end type lobatto_rule_t
@@ -49,7 +51,8 @@ contains
             moments(degree + 2, i) = (p(degree + 1) - p(degree - 1))/real(2*(2*degree + 1), dp)
          end do
       end do
-      rule%differentiate = inverse(transpose(matmul(inverse(conditions), moments)))
+      rule%integrate = transpose(matmul(inverse(conditions), moments))
+      rule%differentiate = inverse(rule%integrate)
    end function new_lobatto_rule
 
    !> Node in the interval from -1 to 1: an end, or a zero of the derivative of the Legendre polynomial of degree nodes - 1.

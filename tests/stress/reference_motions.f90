@@ -19,8 +19,9 @@ module reference_motions
    integer, parameter :: most_steps = 100000
    !> Most periods of a start, and longest period of a motion that is looked for [periods of the force].
    integer, parameter :: most_periods = 150, longest_period = 12
-   !> Where none of so many starts repeats, the next ones are followed for half as many periods, and no more than `most_unsettled`.
-   integer, parameter :: enough_unsettled = 6, most_unsettled = 16
+   !> Where so many starts do not repeat, the next ones are followed for `later_periods`; where no start repeats, no more than
+   !> `most_unsettled` are followed.
+   integer, parameter :: enough_unsettled = 3, later_periods = 60, most_unsettled = 16
    !> Distances at which a start has joined a known motion, at which its own periods repeat, and at which states are those of one
    !> motion, in units of gap and characteristic velocity [-].
    real(dp), parameter :: joined = 5.0e-3_dp, repeated = 2.0e-5_dp, alike = 1.0e-2_dp
@@ -54,8 +55,9 @@ module reference_motions
 
 contains
 
-   !> Follow random starts: films of the middle half of the gap, velocities within twice the characteristic one.
-   subroutine find_reference_motions(problem, tooth, rule, count, seed, number, found)
+   !> Follow random starts: films of the middle half of the gap, velocities within twice the characteristic one. A start ends on a
+   !> motion that is given too, which these steps have to have stayed on; it counts if a start leads there.
+   subroutine find_reference_motions(problem, tooth, rule, count, seed, number, given, found)
       !> What moves, for the film that a spring leaves at rest
       type(problem_t), intent(in) :: problem
       type(tooth_t), intent(in) :: tooth
@@ -65,22 +67,30 @@ contains
       !> Any number, and the number of the scene
       integer(int64), intent(in) :: seed
       integer(int64), intent(in) :: number
+      !> Motions that are known; those without states are none
+      type(reference_motion_t), intent(in) :: given(:)
       type(reference_motions_t), intent(out) :: found
       integer(int64), parameter :: start_stream = 2_int64**47
       type(random_state_t) :: walk
       real(dp) :: film, velocity
-      integer :: i
+      integer :: i, n
 
       walk = random_state_t(seed=seed, stream=start_stream + number)
       allocate (found%motions(0))
+      do i = 1, size(given)
+         if (.not. allocated(given(i)%states)) cycle
+         if (.not. any([(is_same_motion(tooth, given(i), found%motions(n)), n=1, size(found%motions))])) &
+            found%motions = [found%motions, given(i)]
+      end do
       do i = 1, count
-         if (found%unsettled >= most_unsettled .and. size(found%motions) == 0) exit
+         if (found%unsettled >= most_unsettled .and. sum(found%motions%starts) == 0) exit
          found%starts = i
          call next_uniform(walk, film)
          call next_uniform(walk, velocity)
          call follow(tooth, rule, start_of_tooth(problem, state_of_start(problem, motion_start_t('random', &
             tooth%backlash*(0.25_dp + 0.5_dp*film), 2.0_dp*velocity_unit(tooth)*(2.0_dp*velocity - 1.0_dp))), 0.0_dp), found)
       end do
+      found%motions = pack(found%motions, found%motions%starts > 0)
    end subroutine find_reference_motions
 
    !> Follow one start.
@@ -95,7 +105,7 @@ contains
       logical :: solved
 
       most = most_periods
-      if (found%unsettled >= enough_unsettled .and. size(found%motions) == 0) most = most_periods/2
+      if (found%unsettled >= enough_unsettled) most = later_periods
       past(0) = start
       do n = 1, most
          past(n) = past(n - 1)
