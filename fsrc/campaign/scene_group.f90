@@ -3,8 +3,7 @@ module scene_group
    use verify_scene, only: nearby_orbit
    use errors, only: error_t
    use engine, only: ending_t, motion_state_t, request_t, reserved_periods
-   use fine_window, only: classify_window
-   use finer_windows, only: classify_finer
+      use finer_windows, only: classify_finer
    use irregular_motion, only: follow_irregular
    use kinds, only: dp
    use known_motions, only: known_motions_t
@@ -17,6 +16,7 @@ module scene_group
    use scene_status, only: is_success
    use scene_types, only: spectrum_choice_t
    use signals, only: must_stop
+   use window_class, only: classify_window
    use window_record, only: window_record_t
    implicit none(type, external)
    private
@@ -109,7 +109,7 @@ contains
       !> Whether nothing but the classes is asked for
       logical, intent(in), optional :: class_alone
       type(rattle_verdict_t), allocatable :: finer(:)
-      integer, allocatable :: number(:)
+      integer, allocatable :: number(:), classified_by(:)
       logical :: coarse(size(problems)), only_class
       integer :: i
 
@@ -130,9 +130,10 @@ contains
       if (any(coarse)) then
          number = pack([(i, i=1, size(problems))], coarse)
          finer = group%verdicts(number)
-         call classify_finer(problems(number), choices(number), noise_floors(number), request, &
-                             group%endings(number)%samples/request%samples_per_period, group%records(number), finer, only_class, &
-                             group%error)
+         allocate (classified_by(size(number)))
+         call classify_finer(problems(number), choices(number), noise_floors(number), request%accuracy, &
+                             request%samples_per_period, group%endings(number)%samples/request%samples_per_period, &
+                             group%records(number), finer, classified_by, only_class, group%error)
          group%verdicts(number) = finer
       end if
       do i = 1, size(problems)

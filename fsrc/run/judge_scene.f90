@@ -1,13 +1,17 @@
 !> Judges a solved scene: its window, class and regime, and how far they can be trusted.
 module judge_scene
    use verify_scene, only: verify_in_nodes, verify_motion
+   use controlled_engine, only: solve_window
    use engine, only: ending_t
    use errors, only: error_t
-   use force_signal, only: signal_of_window
-   use fine_window, only: classify_window, judge_window, window_t
+   use finer_windows, only: may_be_finer
+   use force_signal, only: has_enough_samples, signal_of_window
+   use fine_window, only: judge_window, window_t
    use irregular_motion, only: follow_irregular
    use judged_scene, only: judged_scene_t
    use vibration_severity, only: severity_of_record, severity_of_samples
+   use kinds, only: dp
+   use memory_need, only: expect_window_memory
    use node_extremes, only: seen_pressure
    use carried_loads, only: thinnest_film
    use problem, only: of_velocity
@@ -17,6 +21,8 @@ module judge_scene
    use scene_status, only: is_success, status_steady
    use scene_types, only: model_resolved, scene_t
    use signals, only: must_stop
+   use text_output, only: lock_texts, unlock_texts
+   use window_class, only: classify_window
    use window_extremes, only: extremes_of_record, extremes_of_samples
    use window_impacts, only: impacts_of_record, impacts_of_samples
    use window_record, only: window_record_t
@@ -62,6 +68,7 @@ contains
       if (.not. judged%judged) return
       window%samples_per_period = scene%solver%samples_per_period()
       window%periods = size(recorder%accelerations)/window%samples_per_period
+      window%classified_by = window%samples_per_period
       allocate (window%states, source=recorder%states)
       allocate (window%accelerations, source=recorder%accelerations)
       window%record = record
@@ -75,7 +82,7 @@ contains
       if (judged%series_coarse .and. scene%film%model == model_resolved) then
          call classify_steps(window%record, judged%resolved%problem%frequency, scene%spectrum, judged%resolved%noise_floor, &
                              judged%rattle)
-         window%by_integrals = .true.
+         window%classified_by = 0
       else if (judged%series_coarse .and. window%record%periods > 0) then
          call judge_window(scene, judged%resolved%problem, scene%solver%accuracy, judged%resolved%noise_floor, window, &
                            judged%rattle, error)
@@ -87,8 +94,8 @@ contains
       judged%judged = .not. must_stop()
       if (.not. judged%judged) return
       judged%window_periods = window%periods
-      judged%samples_per_period = window%samples_per_period
-      judged%harmonics_by_integrals = window%by_integrals
+      judged%harmonics_by_integrals = window%classified_by == 0
+      judged%samples_per_period = merge(window%samples_per_period, window%classified_by, judged%harmonics_by_integrals)
       if (window%record%periods > 0) then
          call note_record(record, judged)
       else
@@ -99,9 +106,7 @@ contains
          judged%impacts = impacts_of_samples(judged%resolved%problem, scene%spectrum%impact_limit, window%samples_per_period, &
                                              window%states)
       end if
-      if (scene%gearbox /= '') judged%film_force = &
-         signal_of_window(judged%resolved%problem, window%accelerations, window%periods, judged%periods, &
-                          judged%status == status_steady, judged%severity%film_force_rms)
+      if (scene%gearbox /= '') call note_film_force(scene, window, judged)
       call note_regime(judged)
       if (scene%spectrum%verify .and. scene%film%model == model_resolved) then
          call verify_in_nodes(scene, judged%resolved, judged%nodal, judged%periods, judged%repeats_after, window, &
@@ -127,6 +132,38 @@ contains
          judged%impacts = impacts_of_record(record, frequency)
       end associate
    end subroutine note_record
+
+   !> Note the force of a pair of a gearbox, from as many samples as have the power that the steps tell, where there may be so many.
+   subroutine note_film_force(scene, window, judged)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Its window
+      type(window_t), intent(in) :: window
+      !> With severity and class; the force is added
+      type(judged_scene_t), intent(inout) :: judged
+      type(window_record_t) :: record
+      type(ending_t) :: ending
+      type(error_t), allocatable :: short_of_memory
+      real(dp), allocatable :: states(:, :), accelerations(:)
+      integer :: samples_per_period
+
+      accelerations = window%accelerations
+      samples_per_period = window%samples_per_period
+      do
+         judged%film_force = signal_of_window(judged%resolved%problem, accelerations, window%periods, judged%periods, &
+                                              judged%status == status_steady, judged%severity%film_force_rms)
+         if (has_enough_samples(judged%film_force) .or. scene%film%model == model_resolved) return
+         if (.not. may_be_finer(window%record, window%periods, samples_per_period)) return
+         samples_per_period = 2*samples_per_period
+         call expect_window_memory(samples_per_period*window%periods, short_of_memory)
+         if (allocated(short_of_memory)) return
+         call unlock_texts()
+         call solve_window(judged%resolved%problem, window%record%start, scene%solver%accuracy, samples_per_period, &
+                           window%periods, window%periods, states, accelerations, ending, record)
+         call lock_texts()
+         if (.not. is_success(ending%status)) return
+      end do
+   end subroutine note_film_force
 
    !> Note whether the film law held where the pressure was highest.
    pure subroutine note_regime(judged)

@@ -6,7 +6,8 @@ module nodal_scene
    use doubt, only: doubt_t, doubt_tighter_ending
    use engine, only: ending_t, motion_watcher_t, request_t, sample_sink_t, start_of, unwatched_t
    use errors, only: error_t
-   use fine_window, only: integral_record, window_t
+   use fine_window, only: window_t
+   use finer_windows, only: integral_record
    use kinds, only: dp, int64
    use nodal_engine, only: solve_in_nodes
    use nodal_step, only: nodal_choice_t

@@ -437,8 +437,9 @@ contains
       key = 'solver.samples_per_period'
       if (scene%solver%method == method_newmark) key = 'solver.steps_per_period'
       if (judged%rattle%spectrum%sampling_sufficient .and. judged%harmonics_by_integrals) then
-         sentence = 'the motion has impacts that no samples of a series show: take peaks from its rows of the extremes, '// &
-                    'and harmonics from here, where they are integrals over the steps (series_coarse)'
+         sentence = 'the samples of the series are too few for its motion: take peaks from its rows of the extremes, '// &
+                    'and harmonics from here, where they are integrals over the steps (series_coarse), or raise '//key// &
+                    ', which shows all but the shortest impacts'
          return
       end if
       sentence = 'the samples of the series are too few for its motion; '

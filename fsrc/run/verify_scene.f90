@@ -7,7 +7,7 @@ module verify_scene
       severity_error, no_verification, windows_behind
    use engine, only: ending_t, motion_state_t, start_of
    use errors, only: error_t
-   use fine_window, only: classify_window, solve_whole_window, window_t
+   use fine_window, only: solve_whole_window, window_t
    use kinds, only: dp
    use nodal_step, only: nodal_choice_t
    use nodal_scene, only: solve_finer
@@ -20,6 +20,7 @@ module verify_scene
    use scene_status, only: is_success
    use scene_types, only: method_newmark, method_taylor, scene_t
    use text_output, only: lock_texts, unlock_texts
+   use window_class, only: classify_window
    use window_extremes, only: extremes_of_record, window_extremes_t
    use window_impacts, only: agreement_of, impacts_of_record, window_impacts_t
    implicit none(type, external)
@@ -99,12 +100,9 @@ contains
          call look_behind(scene, resolved%problem, accuracy, resolved%noise_floor_at(accuracy), tight, ending, unclosed, error)
          if (allocated(error)) return
       end if
-      associate (stride => tight%samples_per_period/window%samples_per_period)
-         call compare_windows(films_of(resolved%problem, window%states), &
-                              films_of(resolved%problem, tight%states(stride::stride, :)), extremes, &
-                              extremes_of_record(tight%record), verdict, tight_verdict, unclosed, scene%spectrum, &
-                              scene%spectrum%verification_tolerance, accuracy, resolved%noise_floor_at(accuracy), verification)
-      end associate
+      call compare_windows(films_of(resolved%problem, window%states), films_of(resolved%problem, tight%states), extremes, &
+                           extremes_of_record(tight%record), verdict, tight_verdict, unclosed, scene%spectrum, &
+                           scene%spectrum%verification_tolerance, accuracy, resolved%noise_floor_at(accuracy), verification)
       verification%impacts = agreement_of(resolved%problem, extremes, impacts, extremes_of_record(tight%record), &
                                          impacts_of_record(tight%record, resolved%problem%frequency))
       verification%severity_error = severity_error(severity, severity_of_record(tight%record, resolved%problem%frequency), accuracy)
@@ -149,7 +147,7 @@ contains
       end if
       call classify_window(scene%spectrum, resolved%problem, finer%periods, finer%accelerations, finer%record, &
                            resolved%noise_floor, finer_verdict)
-      if (.not. finer_verdict%spectrum%sampling_sufficient .or. window%by_integrals) &
+      if (.not. finer_verdict%spectrum%sampling_sufficient .or. window%classified_by == 0) &
          call classify_steps(finer%record, resolved%problem%frequency, scene%spectrum, resolved%noise_floor, finer_verdict)
       call note_orbit(finer_verdict, orbit)
       associate (problem => resolved%problem)
@@ -244,8 +242,8 @@ contains
 
       doubt = doubt_t()
       if (verdict%spectrum%sampling_sufficient .and. tight_verdict%spectrum%sampling_sufficient) return
-      would_do = .not. tight%by_integrals .and. tight%samples_per_period > scene%solver%samples_per_period()
-      doubt = doubt_t(doubt_samples, counts=[merge(tight%samples_per_period, 0, would_do), &
+      would_do = tight_verdict%spectrum%sampling_sufficient .and. tight%classified_by > scene%solver%samples_per_period()
+      doubt = doubt_t(doubt_samples, counts=[merge(tight%classified_by, 0, would_do), &
                                              merge(1, 0, scene%solver%method == method_newmark)])
    end function doubt_of_samples
 

@@ -150,7 +150,7 @@ contains
 
    !> That the samples are too few, and how many would do.
    pure function doubt_of_samples(enough, are_steps) result(sentence)
-      !> Samples of a period that would follow the motion, 0: no number would
+      !> Samples of a period that would follow the motion, 0: not known
       integer, intent(in) :: enough
       !> Whether the samples of the scene are Newmark's steps
       logical, intent(in) :: are_steps
@@ -159,11 +159,11 @@ contains
 
       key = 'solver.samples_per_period'
       if (are_steps) key = 'solver.steps_per_period'
-      sentence = 'The samples a period are too few for the harmonics: '//key
+      sentence = 'The samples a period are too few for the harmonics: '
       if (enough > 0) then
-         sentence = sentence//' = '//integer_text(enough)//' would follow the motion.'
+         sentence = sentence//key//' = '//integer_text(enough)//' would follow the motion.'
       else
-         sentence = sentence//' would have to follow impacts that no equidistant samples follow; the default method does.'
+         sentence = sentence//'raise '//key//'; the default method finds them by integrals over its steps.'
       end if
    end function doubt_of_samples
 

@@ -33,7 +33,7 @@ module force_signal
       complex(dp), allocatable :: lines(:)
    end type force_signal_t
 
-   public :: signal_of_window, sum_in_phase
+   public :: signal_of_window, sum_in_phase, has_enough_samples
 
 contains
 

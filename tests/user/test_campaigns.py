@@ -70,18 +70,15 @@ def test_more_parts_than_chunks_merge(run, folder: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("row", "samples", "tolerance"), [(464, 512, 1e-6), (110, 64, 0.0), (629, 64, 1e-6), (899, 4096, 1e-4)]
+    ("row", "samples", "tolerance"), [(464, 64, 0.0), (110, 64, 0.0), (629, 64, 1e-6), (899, 4096, 0.0)]
 )
 def test_a_scene_of_a_campaign_is_the_single_scene(
     row: int, samples: int, tolerance: float, run, folder: Path, scene_text
 ) -> None:
-    """The same kernels: film range and harmonics of a row come out of a single run.
+    """The same kernels and the same judge: film range and harmonics of a row come out of a single run.
 
-    Idle, creep, and two irregular scenes. A single scene takes as many samples as its lines need, a
-    campaign those that it was given, or integrals over the steps: the idle one has more lines to show
-    alone. One settles slowly; the campaign forecasts where, and comes to the same motion within the
-    accuracy. The window of an irregular motion does not end where it began, which leaves the samples an
-    error of the order of their distance.
+    Idle by integrals over its steps, creep, and two irregular scenes, of which one needs more samples. One
+    settles slowly; the campaign forecasts where, and comes to the same motion within the accuracy.
     """
     result = package.read(solve(run, folder))
     changes = {

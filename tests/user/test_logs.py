@@ -157,8 +157,9 @@ def coarse_words(told: Mapping[str, Any], given: Mapping[str, Any]) -> str:
         what = f"the harmonics are those of the samples: raise {key}"
     elif told["harmonics_by_integrals"]:
         return (
-            "the motion has impacts that no samples of a series show: take peaks from its rows of the "
-            "extremes, and harmonics from here, where they are integrals over the steps (series_coarse)"
+            "the samples of the series are too few for its motion: take peaks from its rows of the "
+            "extremes, and harmonics from here, where they are integrals over the steps (series_coarse), or "
+            f"raise {key}, which shows all but the shortest impacts"
         )
     else:
         what = f"{key} = {told['samples_per_period']} would do, as many as gave the harmonics here"

@@ -1,11 +1,10 @@
-!> Windows of scenes whose samples are too few for their harmonics. Integrals over the steps tell most of what samples do, for much
-!> less. Where they leave more open than the count of many harmonics, or creep rests on that count, windows are solved again from
-!> where they begin, as those of single scenes are: with twice as many samples until these are enough, but side by side.
+!> Windows of scenes, one or many, whose samples are too few for their harmonics. Integrals over the steps tell most of what samples
+!> do, for much less. Where they leave more open than the count of many harmonics, or creep rests on that count, windows are solved
+!> again from where they begin, side by side: with twice as many samples until these are enough.
 module finer_windows
    use carried_loads, only: accelerations_of_samples
    use engine, only: ending_t, motion_state_t, request_t
    use errors, only: error_t
-   use fine_window, only: classify_window, integral_record, may_be_finer
    use kinds, only: dp
    use many_motions, only: solve_motions
    use memory_need, only: expect_window_memory
@@ -14,33 +13,45 @@ module finer_windows
    use scene_status, only: is_success
    use scene_types, only: spectrum_choice_t
    use signals, only: must_stop
+   use text_output, only: lock_texts, unlock_texts
+   use window_class, only: classify_window
    use window_record, only: window_record_t
    implicit none(type, external)
    private
 
+   !> Samples of a period and of a window that no spectrum needs.
+   integer, parameter :: most_samples_per_period = 16384, most_samples = 8388608
+   !> Piece of a step [periods] that is too short for so many samples to follow what happens there.
+   real(dp), parameter :: least_piece = 0.25_dp/real(most_samples_per_period, dp)
+   !> Highest multiple of the frequency that is integrated for, as many as a summary lists.
+   integer, parameter :: usual_multiples = 40
    !> Samples of windows that are solved side by side: no more than these, but for a window that has more alone.
    integer, parameter :: samples_together = 2**21
 
-   public :: classify_finer
+   public :: classify_finer, integral_record, may_be_finer
 
 contains
 
    !> Classify some windows anew. After a signal to stop the classes are of no use.
-   subroutine classify_finer(problems, choices, noise_floors, asked, periods, records, verdicts, class_alone, error)
+   subroutine classify_finer(problems, choices, noise_floors, accuracy, samples_per_period, periods, records, verdicts, &
+                             classified_by, class_alone, error)
       !> What moves, scene by scene as all that follows
       type(problem_t), intent(in) :: problems(:)
       !> Limits of the classes
       type(spectrum_choice_t), intent(in) :: choices(:)
       !> Accelerations that the errors of the solutions explain [m/s2]
       real(dp), intent(in) :: noise_floors(:)
-      !> What was asked of the engine
-      type(request_t), intent(in) :: asked
+      !> Relative accuracy of the solutions [-], and the samples of each period that they have
+      real(dp), intent(in) :: accuracy
+      integer, intent(in) :: samples_per_period
       !> Periods of the windows
       integer, intent(in) :: periods(:)
       !> What their steps tell
       type(window_record_t), intent(in) :: records(:)
       !> Classes by the samples there are, which are too few; on return by more of them or by integrals
       type(rattle_verdict_t), intent(inout) :: verdicts(:)
+      !> Samples of a period that the classes are from; 0: integrals over the steps
+      integer, intent(out) :: classified_by(:)
       !> Whether nothing but the classes is asked for
       logical, intent(in) :: class_alone
       !> Set if there is no memory for as many samples as are needed; the classes are of no use then
@@ -48,14 +59,16 @@ contains
       type(window_record_t) :: windows(size(problems))
       type(rattle_verdict_t), allocatable :: by_samples(:)
       integer, allocatable :: left(:), alike(:)
-      integer :: samples_per_period, together, first, i
+      integer :: finer, together, first, i
 
+      classified_by = samples_per_period
       if (size(problems) == 0) return
       by_samples = verdicts
-      windows = integral_windows(choices, problems, records, periods, asked%accuracy)
+      windows = integral_windows(choices, problems, records, periods, accuracy)
       do i = 1, size(problems)
-         if (windows(i)%periods > 0) &
-            call classify_steps(windows(i), problems(i)%frequency, choices(i), noise_floors(i), verdicts(i))
+         if (windows(i)%periods == 0) cycle
+         call classify_steps(windows(i), problems(i)%frequency, choices(i), noise_floors(i), verdicts(i))
+         classified_by(i) = 0
       end do
       associate (spectrum => verdicts%spectrum)
          if (class_alone) then
@@ -65,18 +78,21 @@ contains
                                                     .not. spectrum%count_is_bound .or. verdicts%class == class_creep)
          end if
       end associate
-      samples_per_period = asked%samples_per_period
+      finer = samples_per_period
       do
-         left = pack(left, may_be_finer(by_samples(left), records(left), periods(left), samples_per_period))
+         left = pack(left, .not. by_samples(left)%spectrum%sampling_sufficient .and. &
+                     may_be_finer(records(left), periods(left), finer))
          if (size(left) == 0) return
-         samples_per_period = 2*samples_per_period
+         finer = 2*finer
+         call lock_texts()
          !$omp critical (sentences)
-         call expect_window_memory(samples_per_period*maxval(periods(left)), error)
+         call expect_window_memory(finer*maxval(periods(left)), error)
          !$omp end critical (sentences)
+         call unlock_texts()
          if (allocated(error)) return
          do i = minval(periods(left)), maxval(periods(left))
             alike = pack(left, periods(left) == i)
-            together = max(1, samples_together/(i*samples_per_period))
+            together = max(1, samples_together/(i*finer))
             do first = 1, size(alike), together
                if (must_stop()) return
                call classify_alike(alike(first:min(first + together - 1, size(alike))), i)
@@ -95,21 +111,23 @@ contains
          real(dp), allocatable :: states(:, :, :), accelerations(:)
          integer :: k
 
-         allocate (states(count*samples_per_period, maxval(state_size(problems(place))), size(place)), source=0.0_dp)
-         allocate (accelerations(count*samples_per_period))
+         allocate (states(count*finer, maxval(state_size(problems(place))), size(place)), source=0.0_dp)
+         allocate (accelerations(count*finer))
          do k = 1, size(place)
             found(k)%wants = .false.
          end do
          call solve_motions(problems(place), records(place)%start, &
-                            request_t(accuracy=asked%accuracy, periods=count, samples_per_period=samples_per_period, &
+                            request_t(accuracy=accuracy, periods=count, samples_per_period=finer, &
                                       sampled_periods=count), states, endings, records=found)
          do k = 1, size(place)
             if (.not. is_success(endings(k)%status)) cycle
             associate (own => place(k))
-               call accelerations_of_samples(problems(own), samples_per_period, states(:, :, k), accelerations)
+               call accelerations_of_samples(problems(own), finer, states(:, :, k), accelerations)
                call classify_window(choices(own), problems(own), count, accelerations, found(k), noise_floors(own), &
                                     by_samples(own))
-               if (by_samples(own)%spectrum%sampling_sufficient) verdicts(own) = by_samples(own)
+               if (.not. by_samples(own)%spectrum%sampling_sufficient) cycle
+               verdicts(own) = by_samples(own)
+               classified_by(own) = finer
             end associate
          end do
       end subroutine classify_alike
@@ -150,5 +168,41 @@ contains
          if (.not. is_success(ended(i)%status)) windows(i)%periods = 0
       end do
    end function integral_windows
+
+   !> An empty record that asks for Fourier integrals. Where all orders of the force are multiples of one, so may all harmonics be,
+   !> and as many of them are asked for as of a force whose orders have no common divisor.
+   pure function integral_record(spectrum) result(record)
+      !> Limits of the classes
+      type(spectrum_choice_t), intent(in) :: spectrum
+      type(window_record_t) :: record
+
+      record%wants = .false.
+      record%multiples = max(usual_multiples, 2*spectrum%idle_harmonics*common_divisor(spectrum%forced), &
+                             2*findloc(spectrum%forced, .true., dim=1, back=.true.))
+   end function integral_record
+
+   !> Greatest order of which all orders of a force are multiples.
+   pure integer function common_divisor(forced)
+      logical, intent(in) :: forced(:)
+      integer :: order
+
+      common_divisor = 1
+      ! It is no larger than the lowest of them.
+      do order = 2, findloc(forced, .true., dim=1)
+         if (count(forced(order::order)) == count(forced)) common_divisor = order
+      end do
+   end function common_divisor
+
+   !> Whether twice as many samples of a window may be enough.
+   elemental logical function may_be_finer(record, periods, samples_per_period)
+      !> What the steps of the window tell; no periods: it cannot be solved again
+      type(window_record_t), intent(in) :: record
+      !> Its periods, and the samples of each
+      integer, intent(in) :: periods
+      integer, intent(in) :: samples_per_period
+
+      may_be_finer = record%periods > 0 .and. record%shortest_piece > least_piece .and. &
+                     2*samples_per_period <= most_samples_per_period .and. 2*samples_per_period <= most_samples/max(1, periods)
+   end function may_be_finer
 
 end module finer_windows
