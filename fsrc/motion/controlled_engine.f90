@@ -24,7 +24,7 @@ module controlled_engine
    !> Periods of a block without samples.
    integer, parameter :: block_periods = 256
 
-   public :: solve_controlled, solve_window, find_steady_motion
+   public :: solve_controlled, solve_window
 
 contains
 
@@ -80,7 +80,7 @@ contains
 
    !> States and accelerations of the last periods of a motion, what its steps tell, and how it ended.
    subroutine solve_window(problem, start, accuracy, samples_per_period, periods, window, states, values, ending, record, &
-                           impact_limit)
+                           impact_limit, until_steady)
       !> What moves
       type(problem_t), intent(in) :: problem
       !> Where the motion starts
@@ -101,45 +101,29 @@ contains
       type(window_record_t), intent(out) :: record
       !> Multiple of the largest force above which loads are impacts, where these are asked for
       real(dp), intent(in), optional :: impact_limit
+      !> Whether the motion ends where it repeats; what is sampled is then what repeats. Absent: all periods
+      logical, intent(in), optional :: until_steady
       type(request_t) :: request
       type(ending_t) :: endings(1)
       type(window_record_t) :: records(1)
       real(dp), allocatable :: samples(:, :, :)
+      integer :: sampled
 
       request = request_t(accuracy=accuracy, periods=periods, samples_per_period=samples_per_period, sampled_periods=window)
+      if (present(until_steady)) request%until_steady = until_steady
       if (present(impact_limit)) records(1)%loads%impact_limit = impact_limit
-      allocate (samples(window*samples_per_period, state_size(problem), 1), source=start%numbers(of_film))
+      sampled = window
+      if (request%until_steady) sampled = reserved_periods(window)
+      allocate (samples(sampled*samples_per_period, state_size(problem), 1), source=start%numbers(of_film))
       call solve_motions([problem], [start], request, samples, endings, records=records)
       ending = endings(1)
       record = records(1)
-      allocate (states, source=samples(:, :, 1))
+      sampled = window*samples_per_period
+      if (is_success(ending%status)) sampled = ending%samples
+      allocate (states, source=samples(:sampled, :, 1))
       allocate (values(size(states, 1)))
       if (is_success(ending%status)) call accelerations_of_samples(problem, samples_per_period, states, values)
    end subroutine solve_window
-
-   !> Solve until the motion repeats, without samples.
-   subroutine find_steady_motion(problem, start, accuracy, periods, window, found)
-      !> What moves
-      type(problem_t), intent(in) :: problem
-      !> Where it starts
-      type(motion_state_t), intent(in) :: start
-      !> Relative accuracy [-]
-      real(dp), intent(in) :: accuracy
-      !> Most periods, and periods of the window at their end
-      integer, intent(in) :: periods
-      integer, intent(in) :: window
-      !> How it ended
-      type(ending_t), intent(out) :: found
-      type(request_t) :: request
-      type(ending_t) :: endings(1)
-      real(dp), allocatable :: unused(:, :, :)
-
-      request = request_t(accuracy=accuracy, periods=periods, until_steady=.true., samples_per_period=1, &
-                          sampled_periods=window)
-      allocate (unused(reserved_periods(window), state_size(problem), 1), source=0.0_dp)
-      call solve_motions([problem], [start], request, unused, endings)
-      found = endings(1)
-   end subroutine find_steady_motion
 
    !> Solve block by block until the motion is found to repeat or the search must end. The checkpoint follows every block.
    subroutine search_blocks(problem, request, here, started, sink, watcher, checkpoint, ending, error)

@@ -33,7 +33,8 @@ module fine_window
 contains
 
    !> Solve a scene and judge its last periods. Other threads make texts while it is solved.
-   subroutine solve_whole_window(scene, problem, start, accuracy, periods, noise_floor, window, verdict, ending, error)
+   subroutine solve_whole_window(scene, problem, start, accuracy, periods, noise_floor, window, verdict, ending, error, &
+                                 until_steady)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> What moves, and where the motion starts
@@ -41,7 +42,7 @@ contains
       type(motion_state_t), intent(in) :: start
       !> Relative accuracy [-]
       real(dp), intent(in) :: accuracy
-      !> Periods to solve
+      !> Periods to solve, at most
       integer, intent(in) :: periods
       !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
@@ -53,11 +54,14 @@ contains
       type(ending_t), intent(out) :: ending
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
+      !> Whether the motion ends where it repeats; its window is then what repeats. Absent: all periods are solved
+      logical, intent(in), optional :: until_steady
 
       call unlock_texts()
       call solve_window(problem, start, accuracy, window%samples_per_period, periods, window%periods, window%states, &
-                        window%accelerations, ending, window%record, scene%spectrum%impact_limit)
+                        window%accelerations, ending, window%record, scene%spectrum%impact_limit, until_steady)
       call lock_texts()
+      if (is_success(ending%status)) window%periods = ending%samples/window%samples_per_period
       if (is_success(ending%status)) call judge_window(scene, problem, accuracy, noise_floor, window, verdict, error)
    end subroutine solve_whole_window
 

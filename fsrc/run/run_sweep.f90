@@ -3,7 +3,6 @@
 module run_sweep
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use clock, only: wall_seconds
-   use controlled_engine, only: find_steady_motion
    use derived_scene, only: derive
    use engine, only: ending_t, motion_state_t, start_of
    use errors, only: error_t
@@ -201,7 +200,7 @@ contains
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
       type(motion_state_t) :: start
-      type(ending_t) :: ending, window_ending
+      type(ending_t) :: ending
       type(window_t) :: window
 
       judged%resolved = resolve(scene)
@@ -214,9 +213,10 @@ contains
          if (.not. problem%initial_film > 0.0_dp) return
          start = start_of(problem)
          if (state%film > 0.0_dp) call keep_by_contacts(problem, state%kept, start%numbers)
-         call unlock_texts()
-         call find_steady_motion(problem, start, scene%solver%accuracy, scene%solver%periods, scene%spectrum%periods, ending)
-         call lock_texts()
+         window%periods = scene%spectrum%periods
+         window%samples_per_period = scene%solver%samples_per_period()
+         call solve_whole_window(scene, problem, start, scene%solver%accuracy, scene%solver%periods, &
+                                 judged%resolved%noise_floor, window, judged%rattle, ending, error, until_steady=.true.)
          judged%status = ending%status
          judged%periods = ending%periods
          state = carried_state_t()
@@ -224,27 +224,15 @@ contains
          state%film = ending%numbers(of_film)
          state%velocity = ending%numbers(of_velocity)
          state%kept = kept_by_contacts(problem, ending%numbers)
-         problem%initial_film = state%film
-         problem%initial_velocity = state%velocity
-         start = motion_state_t(numbers=ending%numbers)
-         window%periods = scene%spectrum%periods
-         if (ending%orbit > 0) window%periods = ending%orbit
-         window%samples_per_period = scene%solver%samples_per_period()
-         call solve_whole_window(scene, problem, start, scene%solver%accuracy, window%periods, &
-                                 judged%resolved%noise_floor, window, judged%rattle, window_ending, error)
       end associate
-      if (allocated(error)) return
-      judged%judged = is_success(window_ending%status)
-      if (.not. judged%judged) then
-         judged%status = window_ending%status
-         return
-      end if
+      judged%judged = .not. allocated(error)
+      if (.not. judged%judged) return
       judged%repeats_after = ending%orbit
       call unlock_texts()
       judged%orbit = find_periodic_orbit(judged%resolved%problem, ending%numbers, orbit_nearness)
       call lock_texts()
       call note_orbit(judged%rattle, max(ending%orbit, attracting_period(judged%orbit)))
-      call follow_one(window_ending, judged)
+      call follow_one(ending, judged)
       call note_record(window%record, judged)
    end subroutine solve_value
 

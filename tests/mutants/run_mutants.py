@@ -94,7 +94,7 @@ NEAREST_TESTS = {
     "fsrc/run/run_sweep": ("coarse_series", "logs", "tasks", "carrying_on", "run_endings"),
     "fsrc/run/judged_scene": ("logs", "impacts", "separation", "rows_and_summaries", "tasks"),
     "fsrc/campaign/threshold": ("thresholds", "threshold_scenes", "logs"),
-    "fsrc/campaign/finer_windows": ("rows_and_summaries",),
+    "fsrc/run/finer_windows": ("rows_and_summaries", "coarse_series"),
     "fsrc/campaign/run_campaign": ("logs", "campaigns", "carrying_on", "check_and_template", "commands"),
     "fsrc/campaign/core_time": ("campaigns", "check_and_template", "commands", "thresholds"),
     "fsrc/campaign/table_task": ("run_endings", "campaigns", "thresholds"),

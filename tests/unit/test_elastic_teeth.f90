@@ -3,7 +3,7 @@ module test_elastic_teeth
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use canonical_scenes, only: canonical_scene, loose_gear
    use checks, only: check_list_t
-   use controlled_engine, only: find_steady_motion, solve_window
+   use controlled_engine, only: solve_window
    use engine, only: ending_t, motion_count_t, motion_state_t, request_t, start_of
    use film_law, only: film_load, kernel_of
    use force, only: force_of_period
@@ -112,7 +112,7 @@ contains
       type(periodic_orbit_t) :: orbit
       real(dp), allocatable :: states(:, :), z(:), amplitudes(:)
 
-      call find_steady_motion(problem, start_of(problem), accuracy, 400, 1, found)
+      call solve_window(problem, start_of(problem), accuracy, 1, 400, 1, states, z, found, record, until_steady=.true.)
       call checks%check(is_success(found%status) .and. found%orbit == 1, name//': repeats after one period')
       call solve_window(problem, start_of(problem), accuracy, samples, found%periods + 1, 1, states, z, found, record)
       call checks%check(found%status == status_complete, name//': solved')

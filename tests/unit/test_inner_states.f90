@@ -4,7 +4,7 @@ module test_inner_states
    use canonical_scenes, only: canonical_scene, counting_watcher_t
    use checks, only: check_list_t, same_bits
    use constants, only: two_pi
-   use controlled_engine, only: find_steady_motion, solve_controlled
+   use controlled_engine, only: solve_controlled, solve_window
    use engine, only: checkpoint_t, ending_t, motion_state_t, request_t, start_of
    use errors, only: error_t
    use byte_file, only: put_in_place
@@ -253,13 +253,14 @@ contains
       type(problem_t) :: problem
       type(ending_t) :: found
       type(periodic_orbit_t) :: orbit
-      real(dp), allocatable :: map(:, :), image(:)
+      type(window_record_t) :: record
+      real(dp), allocatable :: map(:, :), image(:), states(:, :), z(:)
       complex(dp), allocatable :: exact(:)
       integer :: i
 
       do i = 1, size(backlashes)
          problem = problem_of(relaxing_scene(3.0e7_dp, backlashes(i)))
-         call find_steady_motion(problem, start_of(problem), 1.0e-9_dp, 200, 1, found)
+         call solve_window(problem, start_of(problem), 1.0e-9_dp, 1, 200, 1, states, z, found, record, until_steady=.true.)
          call checks%check(is_success(found%status) .and. found%orbit == 1, 'multipliers: the motion repeats')
          map = exponential(motion_matrix(chain, problem)/problem%frequency)
          exact = eigenvalues(map(:state_size(problem), :state_size(problem)))

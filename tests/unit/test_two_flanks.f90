@@ -2,7 +2,7 @@
 module test_two_flanks
    use canonical_scenes, only: loose_gear
    use checks, only: check_list_t, same_bits
-   use controlled_engine, only: find_steady_motion, solve_window
+   use controlled_engine, only: solve_window
    use engine, only: ending_t, motion_state_t, request_t, start_of
    use film_law, only: film_load
    use fourier, only: amplitude_spectrum
@@ -206,7 +206,7 @@ contains
       type(vibration_severity_t) :: told
       real(dp), allocatable :: states(:, :), z(:), amplitudes(:)
 
-      call find_steady_motion(problem, start_of(problem), accuracy, periods, 1, found)
+      call solve_window(problem, start_of(problem), accuracy, 1, periods, 1, states, z, found, record, until_steady=.true.)
       call checks%check(is_success(found%status) .and. found%orbit == 1, name//': repeats after one period')
       call solve_window(problem, start_of(problem), accuracy, samples, found%periods + 1, 1, states, z, found, record)
       call checks%check(found%status == status_complete, name//': solved')
@@ -246,7 +246,7 @@ contains
       scene = canonical_between_flanks(law_piezo_viscous, model_published, rupture_half_pi)
       scene%excitation%steady_force = 0.0_dp
       problem = problem_of(scene)
-      call find_steady_motion(problem, start_of(problem), accuracy, 400, 1, found)
+      call solve_window(problem, start_of(problem), accuracy, 1, 400, 1, states, z, found, record, until_steady=.true.)
       call solve_window(problem, start_of(problem), accuracy, samples, found%periods + 1, 1, states, z, found, record)
       call checks%check(maxval(abs(cshift(states(:, of_film), samples/2) - (problem%backlash - states(:, of_film)))) &
                         < 1.0e-7_dp*problem%backlash, 'mirror: its own image half a period later')
