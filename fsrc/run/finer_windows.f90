@@ -80,8 +80,8 @@ contains
       end associate
       finer = samples_per_period
       do
-         left = pack(left, .not. by_samples(left)%spectrum%sampling_sufficient .and. &
-                     may_be_finer(records(left), periods(left), finer))
+         left = pack(left, may_be_finer(records(left), periods(left), finer) .and. &
+                     .not. by_samples(left)%spectrum%sampling_sufficient)
          if (size(left) == 0) return
          finer = 2*finer
          call lock_texts()
