@@ -357,6 +357,11 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(PYTHON) scripts/plot.py sweep --overwrite --panels acceleration,harmonics --mark '1.4e8=steel tooth' --no-title --output $(PICTURE_RUNS) \
 	  $(addprefix $(PICTURE_RUNS)/,idle_teeth.rattle creep_teeth.rattle idle_teeth_exact.rattle)
 	@cp $(PICTURE_RUNS)/sweep_overlay.png $(PICTURES)/stiff_or_not.png
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set film.model=resolved --set film.nodes=64 \
+	   --set output.profiles=true input/drive_rattle.nml
+	@$(PYTHON) scripts/plot.py motion --overwrite --figures profiles --width 130 --output $(PICTURE_RUNS) \
+	   $(PICTURE_RUNS)/drive_rattle.rattle
+	@cp $(PICTURE_RUNS)/profiles_drive_rattle.png $(PICTURES)/profiles.png
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/loose_gear.nml
 	@$(PYTHON) scripts/plot.py motion --overwrite --figures flanks --output $(PICTURE_RUNS) $(PICTURE_RUNS)/loose_gear.rattle
 	@$(PYTHON) scripts/plot.py motion --overwrite --animate --output $(PICTURE_RUNS) $(PICTURE_RUNS)/loose_gear.rattle

@@ -40,11 +40,12 @@ module flank_contact
       real(dp) :: by_other = 0.0_dp
    end type film_equation_t
 
-   !> What the state of a flank whose film is solved in nodes tells of it: its smallest film, its largest pressure, and the gap that
-   !> the gear leaves. The pressures themselves stay with the engine.
-   integer, parameter, public :: of_smallest_film = 1, of_pressure = 2, of_gap = 3
-   character(*), parameter :: nodal_numbers(3) = [character(13) :: 'smallest_film', 'pressure', 'gap']
-   character(*), parameter :: nodal_units(3) = [character(2) :: 'm', 'Pa', 'm']
+   !> What the state of a flank whose film is solved in nodes tells of it: its smallest film, its largest pressure, the gap that
+   !> the gear leaves, the film at the largest pressure, and the one in the middle. The pressures themselves stay with the engine.
+   integer, parameter, public :: of_smallest_film = 1, of_pressure = 2, of_gap = 3, of_film_at_pressure = 4, of_central_film = 5
+   character(*), parameter :: nodal_numbers(5) = [character(16) :: 'smallest_film', 'pressure', 'gap', 'film_at_pressure', &
+                                                  'central_film']
+   character(*), parameter :: nodal_units(5) = [character(2) :: 'm', 'Pa', 'm', 'm', 'm']
 
    !> Slope of the load over the velocity of a film without squeeze, over that slope where it tells no velocity any more
    real(dp), parameter :: flattest = 1.0e3_dp
@@ -297,7 +298,7 @@ contains
       real(dp), allocatable :: inner(:)
 
       if (contact%film%in_nodes) then
-         inner = [thickness, 0.0_dp, thickness]
+         inner = [thickness, 0.0_dp, thickness, thickness, thickness]
       else if (contact%state_law > 0) then
          inner = rest_of_state(contact%state_law, contact%film, thickness)
       else

@@ -12,9 +12,10 @@ module nodal_flank
    use constants, only: pi
    use elastohydrodynamic_closure, only: closure_t
    use kinds, only: dp
-   use nodal_film, only: balance_of_cells, central_film, correct_pressures, largest_pressure, nodal_balance_t, &
-                         nodal_correction_t, nodal_grid_t, rigid_pressures, shares_of_fourth_order, smallest_film, volumes_of
-   use reynolds_iso_viscous, only: iso_viscous_load, peak_pressure_group
+   use nodal_film, only: balance_of_cells, central_film, correct_pressures, film_at_place, films_along, find_largest_pressure, &
+                         nodal_balance_t, nodal_correction_t, nodal_grid_t, rigid_pressures, shares_of_fourth_order, &
+                         smallest_film, smallest_of_films, volumes_of
+   use reynolds_iso_viscous, only: iso_viscous_load, peak_pressure_group, rupture_tangent_fast
    use reynolds_piezo_viscous, only: critical_pressure_group, piezo_viscous_load
    use scene_types, only: viscosity_constant
    implicit none(type, external)
@@ -47,8 +48,9 @@ module nodal_flank
       real(dp), dimension(0:kept_times) :: gap = 0.0_dp, load = 0.0_dp, film = 0.0_dp, velocity = 0.0_dp
       !> Film in the middle, which errors are judged by, and what is predicted of it
       real(dp) :: centre(0:kept_times) = 0.0_dp, guessed_centre = 0.0_dp
-      !> Largest pressure P, and s, at the end of the step and at present
-      real(dp), dimension(0:1) :: peak = 0.0_dp, bending = 0.0_dp
+      !> Largest pressure P, the film there, that where the gap is nearest without pressure, X = 0, and s, at the end of the step and
+      !> at present
+      real(dp), dimension(0:1) :: peak = 0.0_dp, film_at_peak = 0.0_dp, middle = 0.0_dp, bending = 0.0_dp
       !> Load predicted
       real(dp) :: guessed_load = 0.0_dp
       !> Pressures and what the cells hold: node, time
@@ -238,21 +240,30 @@ contains
       type(nodal_contact_t), intent(in) :: contact
       type(step_weights_t), intent(in) :: weights
       type(nodal_flank_t), intent(inout) :: flank
-      real(dp) :: peak, slope, by_film, by_velocity
+      real(dp) :: peak, place, slope, by_film, by_velocity, films(2*contact%grid%nodes + 1)
       logical :: exists
 
       if (flank%in_nodes) then
          ! A node may be below 0 by rounding.
          flank%load(0) = dot_product(contact%grid%load, flank%pressures(:, 0))
-         flank%film(0) = smallest_film(contact%grid, flank%gap(0), flank%pressures(:, 0))
-         flank%centre(0) = central_film(contact%grid, flank%gap(0), flank%pressures(:, 0))
-         flank%peak(0) = largest_pressure(flank%pressures(:, 0))
+         films = films_along(contact%grid, flank%gap(0), flank%pressures(:, 0))
+         flank%film(0) = smallest_of_films(films)
+         flank%centre(0) = films(2*((contact%grid%nodes + 1)/2))
+         call find_largest_pressure(flank%pressures(:, 0), flank%peak(0), place)
+         flank%film_at_peak(0) = film_at_place(films, place)
+         flank%middle(0) = films(contact%grid%nodes + 1)
          flank%velocity(0) = dot_product(weights%rate, flank%film(0:difference_times))
       else
          flank%velocity(0) = dot_product(weights%rate, flank%film(0:difference_times))
          call rigid_load(contact, flank%film(0), flank%velocity(0), flank%load(0), by_film, by_velocity, exists)
-         call peak_pressure_group(flank%velocity(0)*sqrt(2.0_dp/flank%film(0)), peak, slope)
+         associate (a => flank%velocity(0)*sqrt(2.0_dp/flank%film(0)))
+            call peak_pressure_group(a, peak, slope)
+            ! Where as much flows through as at the rupture: t^2 + A t is the same at both places.
+            place = rupture_tangent_fast(a) + a
+         end associate
          flank%peak(0) = pressure_unit(flank%film(0))*peak
+         flank%film_at_peak(0) = flank%film(0)*(1.0_dp + place*place)
+         flank%middle(0) = flank%film(0)
          flank%centre(0) = flank%film(0)
       end if
       flank%bending(0) = 4.0_dp/pi*flank%load(0)/flank%film(0)
@@ -279,6 +290,8 @@ contains
       flank%centre(1:) = flank%centre(:kept_times - 1)
       flank%velocity(1:) = flank%velocity(:kept_times - 1)
       flank%peak(1) = flank%peak(0)
+      flank%film_at_peak(1) = flank%film_at_peak(0)
+      flank%middle(1) = flank%middle(0)
       flank%bending(1) = flank%bending(0)
       if (.not. flank%in_nodes) return
       flank%pressures(:, 1:) = flank%pressures(:, :kept_times - 1)

@@ -26,7 +26,7 @@ contains
       path = stem(scene)//'.rattle'
    end function result_path
 
-   !> Path of the pressure profiles of a film task.
+   !> Path of the pressure profiles of a film task, or of a motion whose films are solved in nodes.
    pure function profiles_path(scene) result(path)
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: path
@@ -126,7 +126,7 @@ contains
       end if
       if (scene%task /= task_motion .or. scene%output%series) call check_kind(result_path(scene), result_magic, .false.)
       if (has_motions_table(scene)) call check_kind(motions_path(scene), result_magic, .false.)
-      if (scene%task == task_film .and. scene%points%compute(compute_profile)) &
+      if ((scene%task == task_film .and. scene%points%compute(compute_profile)) .or. scene%output%profiles) &
          call check_kind(profiles_path(scene), result_magic, .false.)
       if (scene%task == task_motion .or. scene%task == task_threshold) call check_kind(state_path(scene), result_magic, .false.)
       call check_kind(summary_path(scene), summary_magic, .false.)

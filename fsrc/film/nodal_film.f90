@@ -62,8 +62,8 @@ module nodal_film
    real(dp), parameter :: gauss_place(gauss) = 0.5_dp + 0.5_dp*[-gauss_half(gauss/2:1:-1), gauss_half]
    real(dp), parameter :: gauss_weight(gauss) = 0.5_dp*[gauss_share(gauss/2:1:-1), gauss_share]
 
-   public :: grid_of, balance_of_cells, shares_of_fourth_order, correct_pressures, smallest_film, largest_pressure, &
-             films_at_nodes, central_film, volumes_of, rigid_pressures
+   public :: grid_of, balance_of_cells, shares_of_fourth_order, correct_pressures, smallest_film, films_along, smallest_of_films, &
+             find_largest_pressure, film_at_place, films_at_nodes, central_film, volumes_of, rigid_pressures, hertzian_pressure
 
 contains
 
@@ -404,8 +404,8 @@ contains
       films = gap + 0.5_dp*grid%place**2 + matmul(grid%film_at_nodes, pressures)
    end function films_at_nodes
 
-   !> Smallest film over X, between nodes and edges too.
-   pure real(dp) function smallest_film(grid, gap, pressures) result(smallest)
+   !> Films at edges and nodes in turn, from the first edge to the last.
+   pure function films_along(grid, gap, pressures) result(films)
       type(nodal_grid_t), intent(in) :: grid
       !> G [-]
       real(dp), intent(in) :: gap
@@ -415,26 +415,73 @@ contains
 
       films(2::2) = films_at_nodes(grid, gap, pressures)
       films(1::2) = gap + 0.5_dp*grid%edge**2 + matmul(grid%film, pressures)
-      smallest = -top_of_curve(-films)
-   end function smallest_film
+   end function films_along
 
-   !> Largest pressure over X, between nodes too.
-   pure real(dp) function largest_pressure(pressures)
+   !> Smallest film over X, between nodes and edges too.
+   pure real(dp) function smallest_of_films(films)
+      !> As of films_along [-]
+      real(dp), intent(in) :: films(:)
+      real(dp) :: top, place
+
+      call find_top(-films, top, place)
+      smallest_of_films = -top
+   end function smallest_of_films
+
+   !> Smallest film over X.
+   pure real(dp) function smallest_film(grid, gap, pressures)
+      type(nodal_grid_t), intent(in) :: grid
+      !> G [-]
+      real(dp), intent(in) :: gap
       !> P [-]
       real(dp), intent(in) :: pressures(:)
 
-      largest_pressure = max(0.0_dp, top_of_curve(pressures))
-   end function largest_pressure
+      smallest_film = smallest_of_films(films_along(grid, gap, pressures))
+   end function smallest_film
 
-   !> Largest value of a curve through points at equal distances: that of the cubic through both points about the top and the next
-   !> ones, which does not jump where the highest point becomes another one.
-   pure real(dp) function top_of_curve(values) result(top)
+   !> Largest pressure over X, between nodes too, and where it is.
+   pure subroutine find_largest_pressure(pressures, largest, place)
+      !> P [-]
+      real(dp), intent(in) :: pressures(:)
+      !> P [-]
+      real(dp), intent(out) :: largest
+      !> Number of the node, and the share of the way to the next one
+      real(dp), intent(out) :: place
+
+      call find_top(pressures, largest, place)
+      largest = max(0.0_dp, largest)
+   end subroutine find_largest_pressure
+
+   !> Film at a place: that of the cubic through four films.
+   pure real(dp) function film_at_place(films, place) result(film)
+      !> As of films_along [-]
+      real(dp), intent(in) :: films(:)
+      !> As of find_largest_pressure
+      real(dp), intent(in) :: place
+      real(dp) :: along, share
+      integer :: i
+
+      along = 2.0_dp*place
+      i = min(max(int(along), 2), size(films) - 2)
+      share = along - real(i, dp)
+      film = -share*(share - 1.0_dp)*(share - 2.0_dp)/6.0_dp*films(i - 1) &
+             + (share + 1.0_dp)*(share - 1.0_dp)*(share - 2.0_dp)/2.0_dp*films(i) &
+             - (share + 1.0_dp)*share*(share - 2.0_dp)/2.0_dp*films(i + 1) &
+             + (share + 1.0_dp)*share*(share - 1.0_dp)/6.0_dp*films(i + 2)
+   end function film_at_place
+
+   !> Largest value of a curve through points at equal distances, and where: that of the cubic through both points about the top and
+   !> the next ones, which does not jump where the highest point becomes another one.
+   pure subroutine find_top(values, top, at)
       real(dp), intent(in) :: values(:)
-      real(dp) :: slope, bend, twist, place, root
+      real(dp), intent(out) :: top
+      !> Number of the point, and the share of the way to the next one
+      real(dp), intent(out) :: at
+      real(dp) :: slope, bend, twist, place, root, between
       integer :: i
 
       i = maxloc(values, dim=1)
       top = values(i)
+      at = real(i, dp)
       if (i == 1 .or. i == size(values)) return
       if (values(i - 1) > values(i + 1)) i = i - 1
       if (i == 1 .or. i > size(values) - 2) return
@@ -447,8 +494,21 @@ contains
       ! Of both places without slope the one where the curve bends down
       place = 2.0_dp*slope/(-bend + sqrt(root))
       if (.not. (place > 0.0_dp .and. place < 1.0_dp)) return
-      top = max(top, values(i) + place*(slope + place*(bend/2.0_dp + place*twist/6.0_dp)))
-   end function top_of_curve
+      between = values(i) + place*(slope + place*(bend/2.0_dp + place*twist/6.0_dp))
+      if (.not. between > top) return
+      top = between
+      at = real(i, dp) + place
+   end subroutine find_top
+
+   !> Pressure of a dry contact under a load: B^2 = 8 M/pi, P = B/4 sqrt(1 - X^2/B^2).
+   elemental real(dp) function hertzian_pressure(place, load)
+      !> X [-]
+      real(dp), intent(in) :: place
+      !> M >= 0 [-]
+      real(dp), intent(in) :: load
+
+      hertzian_pressure = 0.25_dp*sqrt(max(0.0_dp, 8.0_dp/pi*load - place*place))
+   end function hertzian_pressure
 
    !> Pressures of the rigid film in the nodes, scaled to a load.
    pure function rigid_pressures(grid, film, velocity, load) result(pressures)

@@ -10,6 +10,7 @@ module nodal_engine
    use nodal_film, only: shares_of_fourth_order
    use nodal_flank, only: accept_step, correct_flank, finish_step, is_bent, kept_times, nodal_contact_t, respond, rigid_gap, &
                           share_that_leaves_a_film, step_weights_t, stiffen
+   use nodal_profiles, only: nodal_profiles_t, note_profiles, start_profiles
    use nodal_step, only: first_step, gear_t, motion_t, nodal_choice_t, set_up, state_of, take_step
    use problem, only: flank_count, of_drive_compression, of_film, of_velocity, problem_t, state_size, static_load
    use repetition, only: longest_orbit
@@ -34,7 +35,7 @@ module nodal_engine
 contains
 
    !> Solve the motion of a problem from rest.
-   subroutine solve_in_nodes(problem, choice, request, sink, watcher, ending, record, error)
+   subroutine solve_in_nodes(problem, choice, request, sink, watcher, ending, record, error, profiles)
       !> What moves
       type(problem_t), intent(in) :: problem
       type(nodal_choice_t), intent(in) :: choice
@@ -50,10 +51,13 @@ contains
       type(window_record_t), intent(inout) :: record
       !> Set if the sink failed
       type(error_t), allocatable, intent(out) :: error
+      !> What is asked for of pressures and films over the contact, and then those of the window
+      type(nodal_profiles_t), intent(inout), optional :: profiles
       type(nodal_contact_t) :: contact
       type(gear_t) :: gear
       type(motion_t) :: motion
       type(step_nodes_t) :: nodes
+      type(nodal_profiles_t) :: kept
       real(dp), allocatable :: force(:), states(:, :), accelerations(:), first(:, :)
       real(dp), allocatable :: watched(:, :)
       integer :: period, last, n, from
@@ -79,14 +83,18 @@ contains
       from = last - request%sampled_periods
       searching = request%until_steady
       call sink%begin_window(int(from, int64)*int(n, int64) + 1_int64, request%sampled_periods*n)
-      if (from == 0) call start_record(state_now(motion, 0), record)
+      if (present(profiles)) kept = profiles
+      if (from == 0) then
+         call start_record(state_now(motion, 0), record)
+         call start_profiles(contact, kept)
+      end if
       allocate (watched(state_size(problem), kept_periods), source=0.0_dp)
       watched(:, 1) = motion%states(1, :)
       period = 0
       do while (period < last)
          period = period + 1
-         call solve_period(problem, contact, gear, force, period > from, motion, nodes, record, states, accelerations, &
-                           ending, choice)
+         call solve_period(problem, contact, gear, force, period - from - 1, period == last, motion, nodes, record, kept, states, &
+                           accelerations, ending, choice)
          ending%film = motion%states(1, of_film)
          ending%time = (real(period - 1, dp) + motion%time(1))/problem%frequency
          call note_flank(gear, motion, ending)
@@ -113,13 +121,17 @@ contains
                call sink%begin_window(int(from, int64)*int(n, int64) + 1_int64, ending%orbit*n)
             end if
          end if
-         if (period == from) call start_record(state_now(motion, period), record)
+         if (period == from) then
+            call start_record(state_now(motion, period), record)
+            call start_profiles(contact, kept)
+         end if
          call watcher%period_done(period, last)
          if (period == last) exit
          ending%status = status_of_stop(request, started)
          if (ending%status /= status_complete) return
       end do
       if (ending%orbit > 0) ending%status = status_steady
+      if (present(profiles)) profiles = kept
    end subroutine solve_in_nodes
 
    !> Periods after which a motion repeats, 0 if it is not seen to: the states at the ends of successive periods come nearer to
@@ -323,16 +335,21 @@ contains
    end function acceleration
 
    !> A period: its steps, the samples of it, and the nodes of its steps where they are recorded.
-   subroutine solve_period(problem, contact, gear, force, recorded, motion, nodes, record, states, accelerations, ending, choice)
+   subroutine solve_period(problem, contact, gear, force, done, is_last, motion, nodes, record, kept, states, accelerations, &
+                           ending, choice)
       type(problem_t), intent(in) :: problem
       type(nodal_contact_t), intent(in) :: contact
       type(gear_t), intent(in) :: gear
       !> Of the samples [N]
       real(dp), intent(in) :: force(:)
-      logical, intent(in) :: recorded
+      !> Whole periods since the window began, below 0 before; and whether this is its last one
+      integer, intent(in) :: done
+      logical, intent(in) :: is_last
       type(motion_t), intent(inout) :: motion
       type(step_nodes_t), intent(inout) :: nodes
       type(window_record_t), intent(in) :: record
+      !> Pressures and films over the contact that are kept of the window
+      type(nodal_profiles_t), intent(inout) :: kept
       !> Sample, number of its state; and z'' [m/s2]
       real(dp), intent(out) :: states(:, :)
       real(dp), intent(out) :: accelerations(:)
@@ -364,7 +381,8 @@ contains
             if (gear%flanks == 2) loads = loads - states(sample, of_velocity + 2)
             accelerations(sample) = (loads/problem%contact%compliance - force(sample) - problem%weight)/problem%mass
          end do
-         if (.not. recorded) cycle
+         if (done < 0) cycle
+         call note_profiles(contact, gear%flanks, motion, done, is_last, kept)
          pieces = max(1, ceiling((motion%time(1) - motion%time(2))/record%longest_piece))
          length = (motion%time(1) - motion%time(2))/real(pieces, dp)
          do part = 1, pieces

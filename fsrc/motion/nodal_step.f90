@@ -62,8 +62,9 @@ module nodal_step
       real(dp), allocatable :: states(:, :)
    end type motion_t
 
-   !> Film of a flank, largest pressure, and gap: the numbers of a state behind the compressions, flank by flank.
-   integer, parameter :: numbers_of_flank = 3
+   !> Smallest film of a flank, largest pressure, gap, film at the largest pressure, and film in the middle: the numbers of a state
+   !> behind the compressions, flank by flank.
+   integer, parameter :: numbers_of_flank = 5
 
    !> First step of a motion [periods]
    real(dp), parameter, public :: first_step = 1.0e-6_dp
@@ -120,9 +121,11 @@ contains
       do flank = 1, gear%flanks
          state(of_velocity + flank) = problem%contact%compliance*gear%load_unit*motion%flanks(flank)%load(place)
          first = of_velocity + gear%flanks + numbers_of_flank*(flank - 1) + 1
-         state(first:first + 2) = [motion%flanks(flank)%film(place)*gear%film_unit, &
-                                   motion%flanks(flank)%peak(place)*problem%contact%film%closure%pressure_unit, &
-                                   motion%flanks(flank)%gap(place)*gear%film_unit]
+         associate (film => motion%flanks(flank))
+            state(first:first + numbers_of_flank - 1) = &
+               [film%film(place)*gear%film_unit, film%peak(place)*problem%contact%film%closure%pressure_unit, &
+                film%gap(place)*gear%film_unit, film%film_at_peak(place)*gear%film_unit, film%middle(place)*gear%film_unit]
+         end associate
       end do
    end function state_of
 

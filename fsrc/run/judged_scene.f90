@@ -12,7 +12,7 @@ module judged_scene
    use vibration_severity, only: vibration_severity_t
    use nodal_step, only: nodal_choice_t
    use node_extremes, only: extreme_t, seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, &
-      seen_position, seen_velocity
+      seen_position, seen_pressure, seen_velocity
    use periodic_orbit, only: orbit_stability, periodic_orbit_t
    use quantities, only: quantity_acceleration_error, quantity_acceleration_kurtosis, quantity_acceleration_maximum, &
       quantity_acceleration_maximum_error, quantity_acceleration_minimum, quantity_acceleration_minimum_error, &
@@ -44,11 +44,13 @@ module judged_scene
       quantity_quietest_class, quantity_starts_solved, quantity_start_periods, quantity_unsettled_starts, &
       quantity_severity_error, quantity_model_limit, quantity_natural_frequency, &
       quantity_orbit_period, quantity_orbit_stability, quantity_periods_solved, quantity_pressure_maximum, &
+      quantity_pressure_error, quantity_pressure_resolved, quantity_film_at_pressure_maximum, quantity_central_film, &
       quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, quantity_sampling_sufficient, &
       quantity_series_coarse, quantity_status, quantity_steady_film, quantity_steps, quantity_steps_cut, &
       quantity_stiffness_matters, quantity_velocity_maximum, quantity_velocity_minimum, quantity_window_periods
    use carried_loads, only: coast_films
-   use problem, only: has_elastic_teeth, has_two_flanks, of_film
+   use flank_contact, only: of_central_film, of_film_at_pressure, of_pressure
+   use problem, only: flank_count, has_elastic_teeth, has_two_flanks, inner_places, of_film
    use rattle_class, only: rattle_verdict_t
    use regime, only: deflection_limit, film_elastohydrodynamic
    use regime_check, only: closure_range, model_limit, regime_verdict_t
@@ -94,6 +96,9 @@ module judged_scene
       !> The motions that all starts have led to, where others were followed
       type(coexisting_motions_t) :: coexisting
    end type judged_scene_t
+
+   !> Change of the largest pressure by twice as many nodes up to which it counts as resolved [-]
+   real(dp), parameter :: resolved_pressure = 0.02_dp
 
    public :: quantity_value, quantity_list, largest_load
 
@@ -261,6 +266,15 @@ contains
             if (judged%orbit%period > 0) value = abs(judged%orbit%multipliers(1))
          case (quantity_pressure_maximum)
             if (regime%pressure_exists) value = regime%pressure_maximum
+         case (quantity_pressure_error)
+            if (verification%exists .and. verification%pressure_error >= 0.0_dp) value = verification%pressure_error
+         case (quantity_pressure_resolved)
+            if (verification%exists .and. verification%pressure_error >= 0.0_dp) &
+               value = flag(verification%pressure_error < resolved_pressure)
+         case (quantity_film_at_pressure_maximum)
+            if (problem%contact%film%in_nodes) value = film_of_peak(judged, of_film_at_pressure)
+         case (quantity_central_film)
+            if (problem%contact%film%in_nodes) value = film_of_peak(judged, of_central_film)
          case (quantity_alpha_p_maximum)
             value = regime%alpha_p_maximum
          case (quantity_deflection)
@@ -392,6 +406,27 @@ contains
       if (has_two_flanks(judged%resolved%problem)) &
          largest_load = max(largest_load, judged%extremes%highest(seen_coast_load)%value)
    end function largest_load
+
+   !> A film of the flank under the largest pressure, at its time [m].
+   pure real(dp) function film_of_peak(judged, which) result(film)
+      !> Its films are in nodes
+      type(judged_scene_t), intent(in) :: judged
+      !> One of the numbers of module flank_contact
+      integer, intent(in) :: which
+      real(dp) :: pressure
+      integer :: places(2), flank
+
+      pressure = -1.0_dp
+      film = 0.0_dp
+      associate (state => judged%extremes%highest(seen_pressure)%state)
+         do flank = 1, flank_count(judged%resolved%problem)
+            places = inner_places(judged%resolved%problem, flank) - 1
+            if (state(places(1) + of_pressure) <= pressure) cycle
+            pressure = state(places(1) + of_pressure)
+            film = state(places(1) + which)
+         end do
+      end associate
+   end function film_of_peak
 
    !> By which share of the film a tooth deflects under the largest load of it, at the flank where that is more [-].
    pure real(dp) function deflection_share(judged) result(share)

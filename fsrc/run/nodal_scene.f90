@@ -10,6 +10,7 @@ module nodal_scene
    use finer_windows, only: integral_record
    use kinds, only: dp, int64
    use nodal_engine, only: solve_in_nodes
+   use nodal_profiles, only: nodal_profiles_t
    use nodal_step, only: nodal_choice_t
    use node_extremes, only: seen_film, seen_load, seen_net_load
    use problem, only: largest_applied_force, problem_t, state_size
@@ -83,7 +84,7 @@ contains
    end subroutine choice_of
 
    !> Solve a scene.
-   subroutine solve_nodal_scene(scene, problem, choice, request, sink, watcher, ending, record, error)
+   subroutine solve_nodal_scene(scene, problem, choice, request, sink, watcher, ending, record, error, profiles)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> What moves
@@ -102,11 +103,13 @@ contains
       type(window_record_t), intent(out) :: record
       !> Set if the sink failed
       type(error_t), allocatable, intent(out) :: error
+      !> What is asked for of pressures and films over the contact, and then those of the window
+      type(nodal_profiles_t), intent(inout), optional :: profiles
 
       record = integral_record(scene%spectrum)
       record%wants = .true.
       record%loads%impact_limit = request%impact_limit
-      call solve_in_nodes(problem, choice, request, sink, watcher, ending, record, error)
+      call solve_in_nodes(problem, choice, request, sink, watcher, ending, record, error, profiles)
    end subroutine solve_nodal_scene
 
    !> The window of a scene, solved finer.

@@ -10,7 +10,7 @@ module resume
    use errors, only: error_t, exit_bad_input, raise
    use file_system, only: file_state_t, state_of_path
    use kinds, only: dp, int64
-   use output_place, only: motions_path, result_path, state_path
+   use output_place, only: motions_path, profiles_path, result_path, state_path
    use problem, only: problem_of, state_number_t, state_numbers
    use repetition, only: kept_states, orbit_watch_t
    use result_format, only: column_name_bytes, column_unit_bytes
@@ -30,11 +30,12 @@ module resume
                                                 '-', '-']
 
    !> Keys that may change when a run is carried on: they do not touch what has been solved.
-   character(*), parameter :: free_keys(12) = [character(31) :: 'solver.periods', 'solver.starts', 'solver.time_limit', &
+   character(*), parameter :: free_keys(15) = [character(31) :: 'solver.periods', 'solver.starts', 'solver.time_limit', &
                                                'solver.until', &
                                                'spectrum.periods', 'spectrum.harmonic_threshold', 'spectrum.idle_harmonics', &
                                                'spectrum.quiet_limit', 'spectrum.irregular_limit', 'spectrum.impact_limit', &
-                                               'spectrum.verify', 'spectrum.verification_tolerance']
+                                               'spectrum.verify', 'spectrum.verification_tolerance', &
+                                               'output.profiles', 'output.profile_phases', 'output.profile_count']
 
    public :: save_state, load_state
 
@@ -82,6 +83,7 @@ contains
       if (kept%bytes == 0_int64) then
          call check_series(scene, error)
          if (.not. allocated(error)) call check_earlier_result(scene, motions_path(scene), free_keys, error)
+         if (.not. allocated(error)) call check_earlier_result(scene, profiles_path(scene), free_keys, error)
          if (.not. allocated(error)) call check_lone_summary(scene, error)
          return
       end if
@@ -95,6 +97,7 @@ contains
       if (.not. allocated(error)) call reader%read_rows(1_int64, row, error)
       call reader%close()
       if (.not. allocated(error)) call check_earlier_result(scene, motions_path(scene), free_keys, error)
+      if (.not. allocated(error)) call check_earlier_result(scene, profiles_path(scene), free_keys, error)
       if (allocated(error)) return
       state = state_of(row(:, 1), size(numbers))
       if (state%periods == 0) then

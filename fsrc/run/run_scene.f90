@@ -12,9 +12,11 @@ module run_scene
    use kinds, only: dp
    use log_file, only: log_t
    use newmark_engine, only: solve_newmark
+   use nodal_profiles, only: nodal_profiles_t
    use nodal_scene, only: choice_of, solve_nodal_scene
    use motions_table, only: write_motions
-   use output_place, only: has_motions_table, log_path, motions_path, result_path, state_path, summary_path
+   use output_place, only: has_motions_table, log_path, motions_path, profiles_path, result_path, state_path, summary_path
+   use profiles_table, only: write_profiles
    use progress, only: progress_t
    use resolved_scene, only: request_of, resolve
    use resume, only: load_state, save_state
@@ -54,6 +56,7 @@ contains
       type(window_record_t) :: record
       type(sample_recorder_t) :: recorder
       type(checkpoint_t) :: state
+      type(nodal_profiles_t) :: profiles
       type(progress_t) :: watcher
       type(log_t), target :: log
       type(error_t), allocatable :: write_error
@@ -84,8 +87,10 @@ contains
          call unlock_texts()
          if (scene%film%model == model_resolved) then
             call choice_of(scene, judged%resolved%problem, judged%nodal)
+            profiles%wanted = scene%output%profiles
+            if (allocated(scene%output%profile_phases)) profiles%phases = scene%output%profile_phases
             call solve_nodal_scene(scene, judged%resolved%problem, judged%nodal, request_of(scene), recorder, watcher, ending, &
-                                   record, error)
+                                   record, error, profiles)
          else if (scene%solver%method /= method_taylor) then
             call solve_newmark(judged%resolved%problem, request_of(scene), recorder, watcher, state, ending, record, error)
          else
@@ -105,10 +110,11 @@ contains
          if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
          if (.not. allocated(error)) call save_state(scene, state, error)
          if (.not. allocated(error) .and. has_motions_table(scene)) call write_motions(scene, judged, error)
+         if (.not. allocated(error) .and. scene%output%profiles) call write_profiles(scene, judged, profiles, error)
       end if
       if (allocated(error)) judged%status = status_not_written
       call write_scene_summary(summary_path(scene), scene, judged, series_of(scene), wall_seconds() - started, write_error, &
-                               motions_of(scene))
+                               motions_of(scene), profiles_of(scene))
       if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
       if (scene%gearbox /= '') then
          call place_files(result_files(scene), summary_path(scene), error, summary_path(whole_gearbox(scene)))
@@ -122,7 +128,7 @@ contains
       call log%close()
    end subroutine run_one_scene
 
-   !> Series, state and table of motions.
+   !> Series, state, table of motions and profiles.
    pure function result_files(scene) result(paths)
       type(scene_t), intent(in) :: scene
       type(word_t), allocatable :: paths(:)
@@ -130,10 +136,11 @@ contains
 
       ! One by one: gfortran 12 loses the texts of a list that is built of function results.
       n = merge(1, 0, scene%output%series)
-      allocate (paths(n + merge(2, 1, has_motions_table(scene))))
+      allocate (paths(n + 1 + merge(1, 0, has_motions_table(scene)) + merge(1, 0, scene%output%profiles)))
       if (n > 0) paths(1)%text = result_path(scene)
       paths(n + 1)%text = state_path(scene)
-      if (size(paths) > n + 1) paths(n + 2)%text = motions_path(scene)
+      if (has_motions_table(scene)) paths(n + 2)%text = motions_path(scene)
+      if (scene%output%profiles) paths(size(paths))%text = profiles_path(scene)
    end function result_files
 
    !> The table of motions, if there is one.
@@ -144,6 +151,15 @@ contains
       allocate (paths(merge(1, 0, has_motions_table(scene))))
       if (size(paths) > 0) paths(1)%text = motions_path(scene)
    end function motions_of
+
+   !> The profiles, if they are asked for.
+   pure function profiles_of(scene) result(paths)
+      type(scene_t), intent(in) :: scene
+      type(word_t), allocatable :: paths(:)
+
+      allocate (paths(merge(1, 0, scene%output%profiles)))
+      if (size(paths) > 0) paths(1)%text = profiles_path(scene)
+   end function profiles_of
 
    !> The series, if it is asked for.
    pure function series_of(scene) result(paths)

@@ -11,7 +11,7 @@ module scene_report
    use kinds, only: dp
    use log_file, only: log_magic, log_t
    use node_extremes, only: seen_acceleration, seen_film
-   use output_place, only: has_motions_table, motions_path, result_path, summary_path
+   use output_place, only: has_motions_table, motions_path, profiles_path, result_path, summary_path
    use problem, only: reference_film
    use quantities, only: a_code, a_flag, part_cost, part_scene, part_window, quantity_closure_range, quantity_deflection_share, &
                          quantity_iterations_per_step, quantity_model_limit, quantity_orbit_stability, quantity_rattle_class, &
@@ -314,6 +314,7 @@ contains
       end do
       if (scene%output%series) call log%line('  '//result_path(scene))
       if (has_motions_table(scene)) call log%line('  '//motions_path(scene))
+      if (scene%output%profiles) call log%line('  '//profiles_path(scene))
       call log%line('  '//summary_path(scene))
    end subroutine report_ending
 

@@ -27,7 +27,7 @@ module scene_summary
 contains
 
    !> Write the summary of a scene beside its place, for place_files to bring it there.
-   subroutine write_scene_summary(path, scene, judged, results, seconds, error, motions)
+   subroutine write_scene_summary(path, scene, judged, results, seconds, error, motions, profiles)
       !> Path of the summary
       character(*), intent(in) :: path
       !> Checked scene
@@ -42,6 +42,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
       !> Path of its table of motions, if it has one
       type(word_t), intent(in) :: motions(:)
+      !> Path of its profiles, if it has any
+      type(word_t), intent(in) :: profiles(:)
       type(summary_t) :: summary
       integer :: i
 
@@ -49,6 +51,9 @@ contains
       call add_results(summary, results, judged%status)
       do i = 1, merge(0, size(motions), judged%status == status_not_written)
          call summary%add('motions_checksum', checksum_of_new_result(motions(i)%text))
+      end do
+      do i = 1, merge(0, size(profiles), judged%status == status_not_written)
+         call summary%add('profiles_checksum', checksum_of_new_result(profiles(i)%text))
       end do
       call summary%add('law', choice_word('film', 'law', scene%film%law))
       call summary%add('model', choice_word('film', 'model', scene%film%model))

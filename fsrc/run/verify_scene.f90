@@ -9,6 +9,7 @@ module verify_scene
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use kinds, only: dp
+   use node_extremes, only: seen_pressure
    use nodal_step, only: nodal_choice_t
    use nodal_scene, only: solve_finer
    use vibration_severity, only: severity_of_record, vibration_severity_t
@@ -161,6 +162,9 @@ contains
                                              impacts_of_record(finer%record, problem%frequency))
          verification%severity_error = severity_error(severity, severity_of_record(finer%record, problem%frequency), &
                                                       finer_share*scene%solver%accuracy)
+         associate (pressures => [extremes%highest(seen_pressure)%value, finer%record%highest(seen_pressure)%value])
+            verification%pressure_error = abs(pressures(1) - pressures(2))/minval(pressures)
+         end associate
       end associate
    end subroutine verify_in_nodes
 

@@ -564,6 +564,15 @@ module key_table
             'Columns of the time series, any of these, in this order; those of the coast flank with contact.backlash only.'), &
       key_t('output', 'stride', integer_kind, '-', '1', at_least_1, '', 'scene.task=motion', &
             'Every how many steps a row is written; 1 writes all.'), &
+      key_t('output', 'profiles', logical_kind, '', '.false.', any_number, '', 'scene.task=motion & film.model=resolved', &
+            'Whether pressure, film and viscosity over the contact are written to NAME.profiles.rattle, at the largest load of '// &
+            'each impact, of a flank without any at its largest load.'), &
+      key_t('output', 'profile_phases', reals_kind, '-', '', range_t(0.0_dp, .true., 1.0_dp, .false.), '', &
+            'scene.task=motion & film.model=resolved', &
+            'Phases of the last period at which they are written instead, each larger than the one before.'), &
+      key_t('output', 'profile_count', integer_kind, '-', '', range_t(1.0_dp, .false., 4096.0_dp, .false.), '', &
+            'scene.task=motion & film.model=resolved', &
+            'Number of equally spaced phases of the last period at which they are written instead, for moving pictures.'), &
       key_t('output', 'overwrite', logical_kind, '', '.false.', any_number, '', '', &
             'Whether output files of an earlier run may be replaced; files of any other kind never are.') &
       ]

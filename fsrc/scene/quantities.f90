@@ -55,7 +55,8 @@ module quantities
          quantity_film_minimum_error, quantity_film_maximum_error, quantity_acceleration_error, &
          quantity_acceleration_minimum_error, quantity_acceleration_maximum_error, quantity_severity_error, &
          quantity_harmonic_errors, quantity_orbit_period, quantity_orbit_stability, quantity_floquet_multipliers, &
-         quantity_floquet_modulus, quantity_pressure_maximum, quantity_alpha_p_maximum, quantity_deflection, &
+         quantity_floquet_modulus, quantity_pressure_maximum, quantity_pressure_error, quantity_pressure_resolved, &
+         quantity_film_at_pressure_maximum, quantity_central_film, quantity_alpha_p_maximum, quantity_deflection, &
          quantity_deflection_share, quantity_stiffness_matters, quantity_film_regime, quantity_law_contradicted, &
          quantity_closure_range, &
          quantity_periods_solved, quantity_evaluations, quantity_steps, quantity_steps_cut, quantity_iterations_per_step
@@ -360,6 +361,16 @@ module quantities
          'Modulus of the largest Floquet multiplier.'), &
       quantity_t(quantity_pressure_maximum, 'pressure_maximum', 'Pa', a_number, part_regime, needs_regime, 'summary campaign', &
          'Largest pressure of the Reynolds film over the window, where it exists; of an elastohydrodynamic film by its closure.'), &
+      quantity_t(quantity_pressure_error, 'pressure_error', '-', a_number, part_regime, needs_verification, 'summary', &
+         'Of films in nodes: the share by which twice as many nodes change pressure_maximum.', digits=2), &
+      quantity_t(quantity_pressure_resolved, 'pressure_resolved', '-', a_flag, part_regime, needs_verification, 'summary', &
+         'Of films in nodes: whether that is less than a fiftieth. The peak of Roelands'' oil at the outlet may be narrower '// &
+         'than nodes are apart.'), &
+      quantity_t(quantity_film_at_pressure_maximum, 'film_at_pressure_maximum', 'm', a_number, part_regime, needs_regime, &
+         'summary', 'Of films in nodes: the film where and when the pressure is largest; film_minimum is the smallest over all '// &
+         'the contact.'), &
+      quantity_t(quantity_central_film, 'central_film', 'm', a_number, part_regime, needs_regime, 'summary', &
+         'Of films in nodes: the film in the middle of the contact when the pressure is largest.'), &
       quantity_t(quantity_alpha_p_maximum, 'alpha_p_maximum', '-', a_number, part_regime, needs_regime, 'summary campaign', &
          'Largest pressure of the Reynolds iso-viscous film, or of an elastohydrodynamic film, times the pressure-viscosity '// &
          'coefficient.'), &

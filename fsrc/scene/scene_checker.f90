@@ -377,7 +377,29 @@ contains
       if (input%is_given('solver', 'starts') .and. input%count('solver', 'starts') > 1) &
          call input%add_fault('solver', 'starts', "model = 'resolved' follows the motion from rest alone; leave it out, or "// &
                               "look for others with model = 'closure'", faults)
+      call check_profiles(input, faults)
    end subroutine check_resolved
+
+   !> When profiles are written is told once, in the order of time.
+   subroutine check_profiles(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+      real(dp), allocatable :: phases(:)
+      character(*), parameter :: names(2) = [character(14) :: 'profile_phases', 'profile_count']
+      integer :: i
+
+      do i = 1, size(names)
+         if (input%is_given('output', trim(names(i))) .and. .not. input%flag('output', 'profiles')) &
+            call input%add_fault('output', trim(names(i)), 'this key is used only with output.profiles = .true.', faults)
+      end do
+      if (.not. input%is_given('output', 'profile_phases') .or. input%is_faulty('output', 'profile_phases')) return
+      if (input%is_given('output', 'profile_count')) &
+         call input%add_fault('output', 'profile_count', 'it cannot stand beside output.profile_phases; leave one of the two out', &
+                              faults)
+      phases = input%numbers('output', 'profile_phases')
+      if (any(phases(2:) <= phases(:size(phases) - 1))) &
+         call input%add_fault('output', 'profile_phases', 'each phase has to be larger than the one before', faults)
+   end subroutine check_profiles
 
    !> The ends of a sweep differ, its key allows the values between them, and its engine can follow it.
    subroutine check_sweep(input, faults)

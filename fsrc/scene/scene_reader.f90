@@ -336,10 +336,18 @@ contains
    function read_output(input) result(output)
       type(scene_input_t), intent(in) :: input
       type(output_t) :: output
+      integer :: i
 
       output%directory = input%word('output', 'directory')
       output%series = input%flag('output', 'series')
       output%overwrite = input%flag('output', 'overwrite')
+      output%profiles = in_use(input, find_key('output', 'profiles')) .and. input%flag('output', 'profiles')
+      if (input%is_given('output', 'profile_phases')) output%profile_phases = input%numbers('output', 'profile_phases')
+      if (input%is_given('output', 'profile_count')) then
+         associate (n => input%count('output', 'profile_count'))
+            output%profile_phases = [(real(i, dp)/real(n, dp), i=1, n)]
+         end associate
+      end if
       allocate (output%columns, source=input%choices('output', 'columns'))
       output%stride = input%count('output', 'stride')
    end function read_output

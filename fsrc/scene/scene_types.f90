@@ -374,6 +374,10 @@ module scene_types
       !> Codes of the columns, in the order of the file
       integer, allocatable :: columns(:)
       integer :: stride = 1
+      !> Whether pressures and films over the contact are written, and at which phases of the last period; none: at the largest load
+      !> of each impact
+      logical :: profiles = .false.
+      real(dp), allocatable :: profile_phases(:)
       logical :: overwrite = .false.
    end type output_t
 

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 TIME = "time"
 # How the table of all motions of a scene ends.
 MOTIONS_ENDING = ".motions.rattle"
+# How the table of pressures and films over the contact ends.
+PROFILES_ENDING = ".profiles.rattle"
 
 
 class Columns(Mapping[str, np.ndarray]):
@@ -165,7 +167,15 @@ class Result(ResultFile):
     @property
     def motions(self) -> Result | None:
         """The motions that the starts of the scene led to, one per row; None where one start was followed."""
-        path = self.path.with_name(self.path.name.removesuffix(".rattle") + MOTIONS_ENDING)
+        return self._table_beside(MOTIONS_ENDING)
+
+    @property
+    def profiles(self) -> Result | None:
+        """Pressures and films over the contact, a row for each node; None where none were written."""
+        return self._table_beside(PROFILES_ENDING)
+
+    def _table_beside(self, ending: str) -> Result | None:
+        path = self.path.with_name(self.path.name.removesuffix(".rattle") + ending)
         return read(path) if path.exists() else None
 
     @property

@@ -5,8 +5,9 @@ module test_nodal_film
    use constants, only: pi
    use elastohydrodynamic_closure, only: closure_steady_film, closure_t
    use kinds, only: dp
-   use nodal_film, only: balance_of_cells, correct_pressures, grid_of, largest_pressure, nodal_balance_t, nodal_correction_t, &
-                         nodal_grid_t, rigid_pressures, shares_of_fourth_order, smallest_film, volumes_of
+   use nodal_film, only: balance_of_cells, correct_pressures, film_at_place, films_along, films_at_nodes, find_largest_pressure, &
+                         grid_of, hertzian_pressure, nodal_balance_t, nodal_correction_t, nodal_grid_t, rigid_pressures, &
+                         shares_of_fourth_order, smallest_film, volumes_of
    use nodal_flank, only: kept_times, nodal_contact_t, nodal_flank_t, rigid_gap, soften, stiffen
    use scene_types, only: viscosity_barus, viscosity_constant, viscosity_roelands
    implicit none(type, external)
@@ -24,6 +25,7 @@ contains
       call test_integrals(checks)
       call test_steady_table(checks)
       call test_literature(checks)
+      call test_dry_contact(checks)
       call test_slopes(checks)
       call test_rupture(checks)
       call test_handing_over(checks)
@@ -106,21 +108,22 @@ contains
       end do
    end subroutine solve_steady
 
-   !> Steady films against solutions that are extrapolated over 256, 512, 1024 nodes: gap, smallest film and largest pressure. Their
-   !> error falls with the square of the number of nodes, as that of the place of rupture does. Films of M = 5 in oil of constant
+   !> Steady films against solutions that are extrapolated over 256, 512, 1024 nodes: gap, smallest film and largest pressure, and the
+   !> film there. Their error falls with the square of the number of nodes, as that of the place of rupture does. Films of M = 5 in oil of constant
    !> viscosity have a narrow neck, which 32 nodes miss.
    subroutine test_steady_table(checks)
       type(check_list_t), intent(inout) :: checks
-      !> M, L, H0, smallest H, largest P
-      real(dp), parameter :: table(5, 10) = reshape([ &
-         0.1_dp, 0.0_dp, 24.7534_dp, 24.5476_dp, 0.008857_dp, 0.4_dp, 0.0_dp, 6.8725_dp, 6.4012_dp, 0.068041_dp, &
-         1.0_dp, 0.0_dp, 3.6893_dp, 3.0631_dp, 0.225499_dp, 2.0_dp, 0.0_dp, 2.8231_dp, 2.1416_dp, 0.448462_dp, &
-         5.0_dp, 0.0_dp, 3.4527_dp, 1.5906_dp, 0.830886_dp, 0.4_dp, 5.0_dp, 7.5502_dp, 7.0698_dp, 0.069258_dp, &
-         1.0_dp, 5.0_dp, 4.8232_dp, 4.1289_dp, 0.245358_dp, 5.0_dp, 5.0_dp, 5.2451_dp, 3.1755_dp, 0.95204_dp, &
-         1.0_dp, 10.0_dp, 6.1068_dp, 5.3467_dp, 0.290544_dp, 0.4_dp, 20.0_dp, 9.7621_dp, 9.2532_dp, 0.075522_dp], [5, 10])
-      character(16), parameter :: names(3) = [character(16) :: 'gap', 'smallest film', 'largest pressure']
+      !> M, L, H0, smallest H, largest P, H there
+      real(dp), parameter :: table(6, 10) = reshape([ &
+         0.1_dp, 0.0_dp, 24.7534_dp, 24.5476_dp, 0.008857_dp, 30.0928_dp, 0.4_dp, 0.0_dp, 6.8725_dp, 6.4012_dp, 0.068041_dp, &
+         7.8611_dp, 1.0_dp, 0.0_dp, 3.6893_dp, 3.0631_dp, 0.225499_dp, 3.7906_dp, 2.0_dp, 0.0_dp, 2.8231_dp, 2.1416_dp, &
+         0.448462_dp, 2.6868_dp, 5.0_dp, 0.0_dp, 3.4527_dp, 1.5906_dp, 0.830886_dp, 2.01593_dp, 0.4_dp, 5.0_dp, 7.5502_dp, &
+         7.0698_dp, 0.069258_dp, 8.6855_dp, 1.0_dp, 5.0_dp, 4.8232_dp, 4.1289_dp, 0.245358_dp, 5.1408_dp, 5.0_dp, 5.0_dp, &
+         5.2451_dp, 3.1755_dp, 0.95204_dp, 4.1762_dp, 1.0_dp, 10.0_dp, 6.1068_dp, 5.3467_dp, 0.290544_dp, 6.6880_dp, 0.4_dp, &
+         20.0_dp, 9.7621_dp, 9.2532_dp, 0.075522_dp, 11.3797_dp], [6, 10])
+      character(16), parameter :: names(4) = [character(16) :: 'gap', 'smallest film', 'largest pressure', 'film there']
       integer, parameter :: nodes(2) = [32, 128]
-      real(dp) :: gap, found(3), tolerance(3)
+      real(dp) :: gap, peak, place, found(4), tolerance(4)
       real(dp), allocatable :: pressures(:)
       type(nodal_grid_t) :: grid
       type(closure_t) :: oil
@@ -138,10 +141,13 @@ contains
             write (name, '(a, i0, a, f3.1, a, f4.1)') 'steady, ', nodes(j), ' nodes, M ', table(1, i), ', L ', table(2, i)
             call checks%check(solved, trim(name)//': solved')
             if (.not. solved) cycle
-            found = [gap/table(3, i), smallest_film(grid, gap, pressures)/table(4, i), largest_pressure(pressures)/table(5, i)]
-            tolerance = merge([0.006_dp, 0.006_dp, 0.01_dp], [0.0005_dp, 0.001_dp, 0.001_dp], j == 1)
-            if (table(1, i) > 4.0_dp) tolerance = merge([0.02_dp, 0.15_dp, 0.06_dp], [0.001_dp, 0.003_dp, 0.007_dp], j == 1)
-            do k = 1, 3
+            call find_largest_pressure(pressures, peak, place)
+            found = [gap/table(3, i), smallest_film(grid, gap, pressures)/table(4, i), peak/table(5, i), &
+                     film_at_place(films_along(grid, gap, pressures), place)/table(6, i)]
+            tolerance = merge([0.006_dp, 0.006_dp, 0.01_dp, 0.01_dp], [0.0005_dp, 0.001_dp, 0.001_dp, 0.001_dp], j == 1)
+            if (table(1, i) > 4.0_dp) tolerance = merge([0.02_dp, 0.15_dp, 0.06_dp, 0.06_dp], [0.001_dp, 0.003_dp, 0.007_dp, &
+                                                                                              0.007_dp], j == 1)
+            do k = 1, 4
                call checks%check_close(found(k), 1.0_dp, tolerance(k), trim(name)//': '//trim(names(k)))
             end do
          end do
@@ -163,6 +169,24 @@ contains
       call solve_steady(oil_of(viscosity_barus, 5.677404_dp), grid, 1.563388_dp, gap, pressures, solved)
       call checks%check_close(smallest_film(grid, gap, pressures), 3.9074_dp, 0.004_dp, 'Kostreva''s problem')
    end subroutine test_literature
+
+   !> The pressure of a dry contact carries its load, and presses its flanks flat: its film is the same all over its width.
+   subroutine test_dry_contact(checks)
+      type(check_list_t), intent(inout) :: checks
+      real(dp), parameter :: load = 5.0_dp, wide = 3.5682_dp
+      real(dp) :: pressures(128), films(128)
+      type(nodal_grid_t) :: grid
+
+      grid = grid_of(128, 4.0_dp, 0.0_dp)
+      pressures = hertzian_pressure(grid%place, load)
+      ! Its edge, where the pressure falls as a root, lies within an interval of a thirtieth of the width: (1/30)^1.5 of the load.
+      call checks%check_close(dot_product(grid%load, pressures)/load, 1.0_dp, 6.0e-3_dp, 'a dry contact carries its load')
+      films = films_at_nodes(grid, 0.0_dp, pressures)
+      associate (inside => abs(grid%place) < 0.9_dp*wide)
+         call checks%check_close(maxval(films, mask=inside) - minval(films, mask=inside), 0.0_dp, 2.0e-2_dp, 'its flanks are flat')
+      end associate
+      call checks%check(all(pressures > 0.0_dp .eqv. abs(grid%place) < wide), 'and as wide as sqrt(8 M/pi)')
+   end subroutine test_dry_contact
 
    !> Slopes of the balance of the cells in pressures and gap against central differences, of all oils, at rest and in motion.
    subroutine test_slopes(checks)

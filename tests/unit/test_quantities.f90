@@ -18,7 +18,9 @@ module test_quantities
                          quantity_impacts_verified, quantity_verdict, quantity_verdict_verified, verification_of, &
                           quantities_told_in, quantity_lyapunov_exponent, quantity_impacts_coast, &
                          quantity_drag_bearing, quantity_drag_churning, quantity_drag_synchroniser, quantity_drag_torque, &
-                         quantity_inertia_ratio, quantity_closure_range, &
+                         quantity_inertia_ratio, &
+                         quantity_central_film, quantity_closure_range, quantity_film_at_pressure_maximum, &
+                         quantity_pressure_error, quantity_pressure_resolved, &
                          quantity_impacts_drive, quantity_verified, quantity_gear_position_maximum, &
                          quantity_gear_position_minimum, quantity_periods_solved, quantity_status, quantity_table, &
                          quantity_word
@@ -98,6 +100,9 @@ contains
          else if (any(i == [quantity_drag_torque, quantity_drag_bearing, quantity_drag_synchroniser, quantity_drag_churning, &
                             quantity_inertia_ratio, quantity_gear_acceleration_rms, quantity_gear_acceleration_maximum])) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of no gear')
+         else if (any(i == [quantity_pressure_error, quantity_pressure_resolved, quantity_film_at_pressure_maximum, &
+                            quantity_central_film])) then
+            call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of films without nodes')
          else if (i == quantity_closure_range) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of rigid flanks')
          else if (any(quantity_table(i)%need == [needs_starts, needs_motion_verdicts])) then

@@ -1,4 +1,4 @@
-"""A motion as moving pictures: the tooth between its flanks with both films, and their loads."""
+"""A motion as moving pictures: the tooth between its flanks with both films, their loads and pressures."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from PIL import Image
 
-from rattle.figures import style
+from rattle.figures import profiles, style
 from rattle.figures.histories import FILM, FLANK_LINES, FLANK_LOADS, LOAD_LABEL, last_periods, time_label
 from rattle.outputs import Writer
-from rattle.result import Result
+from rattle.result import TIME, Result
 
 FRAMES, SECONDS = 100, 10.0
 OIL, STEEL, TOOTH = "#F0C04C", "#B8B8B8", "#6F8FAF"
@@ -49,8 +49,15 @@ def _picture(result: Result, label: str, periods: int) -> tuple[Figure, Callable
     backlash = result.input.get("contact", {}).get("backlash")
     both = bool(backlash)
     gap = 1e6 * backlash if both else 1.6 * films.max()
-    figure = Figure(figsize=(style.WIDTH, 3.4), dpi=INCH_DOTS)
-    left, right = figure.subplots(1, 2, width_ratios=(2, 3))
+    told = profiles.profiles_of(result)
+    figure = Figure(figsize=(style.WIDTH, 5.4 if told else 3.4), dpi=INCH_DOTS)
+    if told:
+        panels = figure.subplot_mosaic([["gap", "loads"], ["contact", "contact"]], width_ratios=(2, 3))
+        left, right = panels["gap"], panels["loads"]
+        span = periods / result.frequency
+        show_contact = _contact(panels["contact"], told, float(result[TIME][-1]) - span, span)
+    else:
+        left, right = figure.subplots(1, 2, width_ratios=(2, 3))
     tooth, oil = _gap(left, gap, both)
     loads = [name for name in FLANK_LOADS if name in result]
     curves = dict(zip(loads, ("drive flank", "coast flank"), strict=False)) or {"acceleration": None}
@@ -72,8 +79,41 @@ def _picture(result: Result, label: str, periods: int) -> tuple[Figure, Callable
             oil[1].set_y(film + THICK * gap)
             oil[1].set_height(gap - film)
         now.set_xdata([moment * time[-1]] * 2)
+        if told:
+            show_contact(moment)
 
     return figure, show
+
+
+def _contact(axes: Axes, told: list[profiles.Profile], start: float, span: float) -> Callable[[float], None]:
+    """Pressures over both contacts, and what moves them to a share of the time shown.
+
+    Each flank has its last profile. `start` is where the time shown begins [s], `span` how long it is.
+    """
+    flanks = sorted({profile.flank for profile in told})
+    lines = {}
+    for flank, line in zip(flanks, FLANK_LINES, strict=False):
+        (pressure,) = axes.plot([], [], label=profiles.FLANKS[flank], **line)
+        (dry,) = axes.plot([], [], color=line["color"], **profiles.DRY)
+        lines[flank] = pressure, dry
+    axes.plot([], [], color=style.FORCE_COLOUR, label="dry contact (Hertz)", **profiles.DRY)
+    highest = max(max(one.pressure.max(), one.dry.max()) for one in told)
+    places = np.concatenate([one.place[one.pressure > profiles.SHOWN_SHARE * highest] for one in told])
+    axes.set_xlim(1.1 * min(places.min(), 0.0), 1.3 * places.max())
+    axes.set_ylim(0.0, 1.1 * highest)
+    axes.set_ylabel("Pressure [MPa]")
+    axes.set_xlabel(r"Position over the contact [$\mathrm{\mu}$m]")
+    axes.legend(loc="upper left")
+
+    def show(moment: float) -> None:
+        now = start + moment * span
+        for flank, (pressure, dry) in lines.items():
+            before = [one for one in told if one.flank == flank]
+            one = min(before, key=lambda other: (now - other.time) % span)
+            pressure.set_data(*one.curve(one.pressure))
+            dry.set_data(*one.dry_curve())
+
+    return show
 
 
 def _gap(axes: Axes, gap: float, both: bool) -> tuple[Rectangle, list[Rectangle]]:

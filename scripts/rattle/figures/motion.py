@@ -11,20 +11,29 @@ from matplotlib.figure import Figure
 
 import rattle
 from rattle import command, outputs
-from rattle.figures import animation, histories, spectra, style
+from rattle.figures import animation, histories, profiles, spectra, style
 from rattle.result import Result
 
 DESCRIPTION = (
     "Draw figures 6 to 10 of the paper. A piezo-viscous result gives figures 09 and 10b, an iso-viscous one "
     "06, 07, 08 and 10a, and so does one with a film that the paper has not; the scene's name stands behind "
     "the number. A result with the column coast_film also gives flanks_NAME: films and loads of both flanks "
-    "and the acceleration over a cycle."
+    "and the acceleration over a cycle; one with NAME.profiles.rattle beside it profiles_NAME: pressure and "
+    "film over the contact."
 )
 
 FLANKS = "flanks"
-NUMBERS = (6, 7, 8, 9, 10, FLANKS)
+PROFILES = "profiles"
+NUMBERS = (6, 7, 8, 9, 10, FLANKS, PROFILES)
 OF_PIEZO_VISCOUS = {9: "figure_09", 10: "figure_10b", FLANKS: FLANKS}
-OF_OTHERS = {6: "figure_06", 7: "figure_07", 8: "figure_08", 10: "figure_10a", FLANKS: FLANKS}
+OF_OTHERS = {
+    6: "figure_06",
+    7: "figure_07",
+    8: "figure_08",
+    10: "figure_10a",
+    FLANKS: FLANKS,
+    PROFILES: PROFILES,
+}
 OVERLAYS = {
     (6,): "figure_06_overlay",
     (7,): "figure_07_overlay",
@@ -48,7 +57,7 @@ def add_options(parser: ArgumentParser) -> None:
         "--figures",
         type=command.some_of(NUMBERS),
         default=NUMBERS,
-        metavar="6,7,8,9,10,flanks",
+        metavar="6,7,8,9,10,flanks,profiles",
         help="the figures to draw, all by default",
     )
     style.add_extent(parser, 4)
@@ -124,8 +133,15 @@ def single_figures(
     for result, label in zip(results, style.run_labels(results), strict=True):
         stems = OF_PIEZO_VISCOUS if result.law == "piezo-viscous" else OF_OTHERS
         for number, stem in stems.items():
-            if number in numbers and (number != FLANKS or histories.FLANK_FILMS[1] in result):
+            if number in numbers and _has(number, result):
                 yield f"{stem}_{style.file_part(label)}", _draw(number, [result], [label], extent)
+
+
+def _has(number: int | str, result: Result) -> bool:
+    """Whether a result has what a figure shows."""
+    if number == FLANKS:
+        return histories.FLANK_FILMS[1] in result
+    return number != PROFILES or bool(profiles.profiles_of(result))
 
 
 def overlay_figures(
@@ -144,6 +160,8 @@ def overlay_figures(
 def _draw(number: int | str, results: Sequence[Result], labels: Sequence[str], extent: Extent) -> Figure:
     if number == FLANKS:
         return histories.draw_flanks(results[0], labels[0])
+    if number == PROFILES:
+        return profiles.draw(results[0], labels[0])
     if number == 6:
         return histories.draw_film_and_force(results, labels, extent.periods)
     if number == 7:
