@@ -344,7 +344,7 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(PYTHON) scripts/plot.py campaign --overwrite --together --output $(PICTURE_RUNS) \
 	  --thresholds $(PICTURE_RUNS)/gearbox_threshold.rattle $(PICTURE_RUNS)/gearbox_map.rattle
 	@cp $(PICTURE_RUNS)/gearbox_map_pairs.png $(PICTURES)/gearbox.png
-	@$(PYTHON) scripts/plot.py threshold --overwrite --no-title --output $(PICTURE_RUNS) $(PICTURE_RUNS)/gearbox_threshold.rattle
+	@$(PYTHON) scripts/plot.py threshold --overwrite --output $(PICTURE_RUNS) $(PICTURE_RUNS)/gearbox_threshold.rattle
 	@cp $(PICTURE_RUNS)/threshold_gearbox_threshold.png $(PICTURES)/gearbox_threshold.png
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/sweep.nml
 	@$(PYTHON) scripts/plot.py sweep --overwrite $(PICTURE_RUNS)/sweep.rattle --output $(PICTURE_RUNS)
@@ -354,7 +354,7 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	  input/stiff_or_not.nml
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=idle_teeth_exact --set film.model=reynolds \
 	  input/stiff_or_not.nml
-	@$(PYTHON) scripts/plot.py sweep --overwrite --panels acceleration,harmonics --mark '1.4e8=steel tooth' --no-title --output $(PICTURE_RUNS) \
+	@$(PYTHON) scripts/plot.py sweep --overwrite --panels acceleration,harmonics --mark '1.4e8=steel tooth' --output $(PICTURE_RUNS) \
 	  $(addprefix $(PICTURE_RUNS)/,idle_teeth.rattle creep_teeth.rattle idle_teeth_exact.rattle)
 	@cp $(PICTURE_RUNS)/sweep_overlay.png $(PICTURES)/stiff_or_not.png
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set film.model=resolved --set film.nodes=64 \

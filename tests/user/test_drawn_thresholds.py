@@ -123,7 +123,7 @@ def test_kinds_of_change_are_curves_of_their_own(tmp_path):
         "quiet to creep (3)",
         "creep to idle (1)",
         "creep to film lost (1)",
-        "from end to end",
+        "from lower to upper",
         "not verified (2)",
         "no change (1)",
     ]
@@ -139,6 +139,20 @@ def test_the_axis_shows_the_changes_where_they_lie_close_together(tmp_path):
     low, high = near.get_ylim()  # of 21, 31 and 41 N
     assert 5.0 < low < 20.0 and 42.0 < high < 60.0
     assert near.get_title(loc="left").endswith("\nSearched from 5 to 100 N")
+
+
+def test_bars_that_hide_behind_their_marks_have_no_legend(tmp_path):
+    """Shorter than a hundredth of the axis, which is 95 N long, in curves over one key and over two."""
+    axes = ("kinematics.entrainment_speed", "load.mass")
+    lasting = [row for row in ROWS if row[2] > 0.0]
+    plane = [row for row in PLANE if row[2] <= 3.0]
+    for width, shows in ((0.8, False), (1.2, True)):
+        rows = [[*row[:4], row[3] + width, *row[5:]] for row in lasting]
+        made = figure(written(tmp_path / f"{width}.rattle", rows))
+        assert ("from lower to upper" in drawn.legend_words(made)) == shows
+        rows = [[*row[:5], row[4] + width, *row[6:]] for row in plane]
+        made = figure(written(tmp_path / f"{width}_plane.rattle", rows, axes))
+        assert ("from lower to upper" in drawn.legend_words(made)) == shows
 
 
 def test_neighbours_with_other_counts_of_a_change_are_not_joined(tmp_path):
@@ -178,7 +192,7 @@ def test_two_keys_are_curves_if_few_and_a_surface_if_many(tmp_path):
     for mass, (x, y) in enumerate(lines, 1):
         np.testing.assert_array_equal(x, np.arange(1.0, 11.0))
         np.testing.assert_array_equal(y, 10.0 * x + mass + 1.0)
-    assert drawn.legend_words(made) == ["mass 1 kg", "mass 2 kg", "mass 3 kg", "from end to end"]
+    assert drawn.legend_words(made) == ["mass 1 kg", "mass 2 kg", "mass 3 kg", "from lower to upper"]
     made = figure(written(tmp_path / "many.rattle", PLANE, axes))
     mesh = next(one for one in made.axes[0].collections if one.get_array() is not None)
     values = np.asarray(mesh.get_array()).reshape(9, 10)
@@ -256,7 +270,7 @@ def test_sides_of_a_level_are_named_for_what_they_are(tmp_path):
     assert drawn.legend_words(made) == [
         "below 100 N to at least 100 N (1)",
         "at least 100 N to below 100 N (1)",
-        "from end to end",
+        "from lower to upper",
         "not verified (1)",
     ]
 

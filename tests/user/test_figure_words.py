@@ -383,7 +383,7 @@ def test_words_of_thresholds(tmp_path):
             "Entrainment speed [m/s]",
             "Force amplitude [N]",
             *(f"{kind} ({count})" for kind, count in kinds.items()),
-            "from end to end",
+            "from lower to upper",
             f"not verified ({unsure})",
             f"no change ({without})",
         ],

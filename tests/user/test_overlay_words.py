@@ -272,7 +272,7 @@ def test_words_of_threshold_curves(tmp_path):
             "Entrainment speed [m/s]",
             "Force amplitude [N]",
             *(f"mass {mass:g} kg" for mass in np.unique([row[2] for row in rows])),
-            "from end to end",
+            "from lower to upper",
             "not verified",
         ],
     )
@@ -320,7 +320,7 @@ def test_words_of_a_threshold_at_a_held_key(tmp_path):
             "Entrainment speed [m/s]",
             "Force amplitude [N]",
             f"quiet to creep ({count})",
-            "from end to end",
+            "from lower to upper",
         ],
     )
 
@@ -344,7 +344,7 @@ def test_words_of_thresholds_over_a_map(tmp_path):
     doubt = int((rows["verified"] == 0.0).sum())
     assert set(legend) - classes == {
         *(f"{kind} ({kinds.count(kind)})" for kind in kinds),
-        "from end to end",
+        "from lower to upper",
         f"not verified ({unsure})",
         f"no change ({sum(row[2] == 0.0 for row in ROWS)})",
         *([f"not verified ({100.0 * doubt / rows.row_count:.1f} %)"] if doubt else []),

@@ -26,13 +26,15 @@ from rattle.thresholds import Thresholds, thresholds, words_of_criterion
 
 DESCRIPTION = (
     "Draw thresholds, over the map of a campaign if one is given, as threshold_NAME: points over one key, "
-    "curves or a map over two. Bars: from end to end; open marks: an end is not verified."
+    "curves or a map over two. Bars: from lower to upper; open marks: an end is not verified."
 )
 MOST_CURVES = 7
 MOST_KINDS = len(style.RUN_COLOURS) - 1
 NONE = "no change"
 UNCERTAIN = "not verified"
-BAR = "from end to end"
+BAR = "from lower to upper"
+# Share of an axis below which a bar hides behind its mark.
+LEAST_BAR = 0.01
 
 
 def add_options(parser: ArgumentParser) -> None:
@@ -180,7 +182,7 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
         )
         words = kind or "other changes"
         handles.append(Line2D([], [], **dashes, **marks, label=f"{words} ({int(chosen.sum())})"))
-    if crossed.any():
+    if bars_show(axes, found, crossed):
         handles.append(bar_entry())
     if found.either.any():
         handles.append(either_entry(int(found.either.sum())))
@@ -195,6 +197,13 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
         axes.plot(x[~crossed], foot, transform=axes.get_xaxis_transform(), zorder=4, **mark)
         handles.append(Line2D([], [], **mark, label=f"{NONE} ({int((~crossed).sum())})"))
     return handles
+
+
+def bars_show(axes: Axes, found: Thresholds, chosen: np.ndarray) -> bool:
+    """Whether some bar is longer than its mark."""
+    seen = np.log if look.is_logarithmic(found.range) else np.asarray
+    lower, upper = (seen(found.column(name)[chosen]) for name in ("lower", "upper"))
+    return bool((upper - lower > LEAST_BAR * np.ptp(seen(np.array(axes.get_ylim())))).any())
 
 
 def bar_entry() -> Line2D:
@@ -250,7 +259,7 @@ def draw_curves(axes: Axes, found: Thresholds, along: Axis, other: Axis, crossin
         handles += axes.plot(*unjoined(found, along.values, column), label=label, **line, **mark)
         points = {"color": line["color"], "linestyle": "", "markerfacecolor": "white", **mark}
         axes.plot(along.values[unsure], column[unsure], **points)
-    if np.isfinite(values).any():
+    if bars_show(axes, found, lasting):
         handles.append(bar_entry())
     if (lasting & found.either).any():
         handles.append(either_entry(int((lasting & found.either).sum())))
