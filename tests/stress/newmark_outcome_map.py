@@ -95,6 +95,7 @@ def draw(panels: dict[tuple[str, str, str], Panel]) -> Figure:
         )
         label.set(verticalalignment="center")
     patches = [Patch(facecolor=colour, label=name) for colour, name in zip(COLOURS, OUTCOMES, strict=True)]
+    figure.suptitle("What Newmark's method makes of three scenes", x=0.02, ha="left", fontsize=9.5)
     figure.legend(handles=patches, loc="outside lower center", ncols=len(patches))
     return figure
 
