@@ -145,6 +145,8 @@ contains
       type(ending_t) :: ending
       type(error_t), allocatable :: short_of_memory
       real(dp), allocatable :: states(:, :), accelerations(:)
+      !> Share of the power of a force by which its samples may miss that of the steps
+      real(dp), parameter :: missed_power = 1.0e-6_dp
       integer :: samples_per_period
 
       accelerations = window%accelerations
@@ -152,7 +154,7 @@ contains
       do
          judged%film_force = signal_of_window(judged%resolved%problem, accelerations, window%periods, judged%periods, &
                                               judged%status == status_steady, judged%severity%film_force_rms)
-         if (has_enough_samples(judged%film_force) .or. scene%film%model == model_resolved) return
+         if (has_enough_samples(judged%film_force, missed_power) .or. scene%film%model == model_resolved) return
          if (.not. may_be_finer(window%record, window%periods, samples_per_period)) return
          samples_per_period = 2*samples_per_period
          call expect_window_memory(samples_per_period*window%periods, short_of_memory)

@@ -109,7 +109,7 @@ contains
       words = 'unknown, as there is no window of '//joined_words(names, odd)
       can_be_told = .not. any(odd)
       if (.not. can_be_told) return
-      odd = [(.not. has_enough_samples(signals(i)), i=1, size(signals))]
+      odd = [(.not. has_enough_samples(signals(i), power_share), i=1, size(signals))]
       words = 'unknown, as there are too few samples for the force of '//joined_words(names, odd)
       can_be_told = .not. any(odd)
       if (.not. can_be_told) return
@@ -144,10 +144,12 @@ contains
    end subroutine find_periods
 
    !> Whether the samples of a window have the power that its steps have.
-   pure logical function has_enough_samples(signal)
+   pure logical function has_enough_samples(signal, share)
       type(force_signal_t), intent(in) :: signal
+      !> Share of the power by which they may miss it
+      real(dp), intent(in) :: share
 
-      has_enough_samples = abs(0.5_dp*sum(abs(signal%lines)**2) - signal%rms**2) <= power_share*signal%rms**2
+      has_enough_samples = abs(0.5_dp*sum(abs(signal%lines)**2) - signal%rms**2) <= share*signal%rms**2
    end function has_enough_samples
 
    !> Mean of the product of two signals: only harmonics at frequencies of both have one [N2].

@@ -92,6 +92,7 @@ NEAREST_TESTS = {
     "fsrc/run/scene_report": ("two_flanks", "tooth_stiffness", "drag", "gear_inputs", "logs", "tasks"),
     "fsrc/run/scene_summary": ("gear_inputs", "logs", "state_at_failure", "tasks"),
     "fsrc/run/run_sweep": ("coarse_series", "logs", "tasks", "carrying_on", "run_endings"),
+    "fsrc/run/judge_scene": ("gearbox", "coarse_series", "rows_and_summaries"),
     "fsrc/run/judged_scene": ("logs", "impacts", "separation", "rows_and_summaries", "tasks"),
     "fsrc/campaign/threshold": ("thresholds", "threshold_scenes", "logs"),
     "fsrc/run/finer_windows": ("rows_and_summaries", "coarse_series"),

@@ -110,6 +110,21 @@ def test_each_pair_is_the_scene_of_its_own_input(solve, tmp_path: Path) -> None:
     assert f"  {table['film_force_text']}\n" in ended.stdout
 
 
+def test_few_samples_of_the_series_leave_the_sum_of_forces(solve, tmp_path: Path) -> None:
+    """The forces are sampled until they have the power that the steps tell, which 64 samples do not."""
+    told = []
+    for samples in (64, 4096):
+        solve("box", BOTH, "--set", f"solver.samples_per_period={samples}")
+        told.append(package.read_summary(tmp_path / "results" / "box.summary.nml"))
+        first = summary_of(tmp_path / "results" / "box.1st.summary.nml")
+        assert first["series_coarse"] == (samples == 64)
+    few, many = told
+    assert few["film_force_text"] == many["film_force_text"]
+    assert few["film_force_rms_uncorrelated"] == many["film_force_rms_uncorrelated"]
+    # Samples that have the power of the steps to a millionth.
+    assert few["film_force_rms_in_phase"] == pytest.approx(many["film_force_rms_in_phase"], rel=1e-6)
+
+
 def force_of(folder: Path, name: str, periods: int) -> np.ndarray:
     """Film force of the last periods of a series, m z'' + F, which equation (1) leaves to the films."""
     result = package.read(folder / f"{name}.rattle")

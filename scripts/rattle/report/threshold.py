@@ -147,7 +147,7 @@ def tables(result: Result) -> list[str]:
 
 
 def figures(result: Result) -> list[str]:
-    caption = "Thresholds over the varied keys. Bars: from lower to upper; open marks: an end is not verified."
+    caption = "Thresholds over the varied keys. Bars: lower to upper; open marks: an end is not verified."
     try:
         found, held = picture.cut(thresholds(result), {}, 2)
     except CommandError:
