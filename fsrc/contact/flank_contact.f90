@@ -6,8 +6,9 @@
 !> with and without a state are contacts of different numbers; one flank or two are one contact or two. Flanks that bend are
 !> compressed by what follows the width of the contact beside d, w(h, W) of module film_law.
 module flank_contact
-   use film_law, only: film_kernel, film_load, film_loads, film_over_gap, kernel_of, film_t, law_words, mixed_film_loads, &
-      never_pulls, new_film, overflow_load, squeeze_velocity, steady_film, width_compression
+   use film_law, only: film_kernel, film_load, film_loads, film_over_gap, films_over_gaps, kernel_of, film_t, law_words, &
+      mixed_film_loads, most_films, never_pulls, new_film, overflow_load, squeeze_velocities, squeeze_velocity, steady_film, &
+      width_compression
    use film_state, only: film_response_t, load_t, state_number_t
    use film_states, only: count_of_state, number_of_state, place_of_law, respond_of_state, rest_of_state, words_of_state
    use flank_elasticity, only: flank_compliance
@@ -27,18 +28,14 @@ module flank_contact
       real(dp) :: compliance = 0.0_dp
    end type flank_contact_t
 
-   !> Equation of a film at a node: h' = w(h, W), the velocity that carries a load, or W(h, h') = W.
-   type, public :: film_equation_t
+   !> Equations of films at nodes: h' = w(h, W), the velocity that carries a load, or W(h, h') = W.
+   type, public :: film_equations_t
       !> Whether it is the first one, and whether the film has such a velocity, or a load; if not, whether because the load is
       !> beyond all
-      logical :: of_velocities = .false.
-      logical :: exists = .false.
-      logical :: overloaded = .false.
+      logical, dimension(most_films) :: of_velocities, exists, overloaded
       !> w [m/s] or W [N], with its slopes in h and in W or h'
-      real(dp) :: value = 0.0_dp
-      real(dp) :: by_film = 0.0_dp
-      real(dp) :: by_other = 0.0_dp
-   end type film_equation_t
+      real(dp), dimension(most_films) :: value, by_film, by_other
+   end type film_equations_t
 
    !> What the state of a flank whose film is solved in nodes tells of it: its smallest film, its largest pressure, the gap that
    !> the gear leaves, the film at the largest pressure, and the one in the middle. The pressures themselves stay with the engine.
@@ -51,9 +48,9 @@ module flank_contact
    real(dp), parameter :: flattest = 1.0e3_dp
 
    public :: contact_of, contact_words, is_elastic, carries_positive_loads, is_costly, inner_count, inner_number, inner_at_rest, &
-             film_under, load_of_contact, load_at_rest, loads_of_contact, mixed_loads, velocity_under, equation_of_film, &
+             film_under, load_of_contact, load_at_rest, loads_of_contact, mixed_loads, velocity_under, equations_of_films, &
              compliance_at_rest, &
-             overflow_load, film_kernel, kernel_of_contact, film_over_gap, width_compression
+             overflow_load, film_kernel, kernel_of_contact, film_over_gap, films_over_gaps, most_films, width_compression
 
 contains
 
@@ -220,29 +217,39 @@ contains
       if (outcome /= load_carried) velocity = near
    end function velocity_under
 
-   !> Equation of a film without a state of its own: that of velocities where a load tells its velocity. A short step leaves the
+   !> Equations of films without a state of their own: those of velocities where a load tells its velocity. A short step leaves the
    !> load where it is, but not the velocity of the film, and where loads hardly tell it an equation of them would be far from
    !> linear. Of a film that may pull or holds on to a part of its load it is so until that part is all that is left, which tells no
    !> velocity.
-   pure type(film_equation_t) function equation_of_film(contact, thickness, load, velocity) result(equation)
+   pure subroutine equations_of_films(contact, n, thickness, load, velocity, equations)
       type(flank_contact_t), intent(in) :: contact
-      !> h [m], W [N] and h' [m/s] where it is asked for
-      real(dp), intent(in) :: thickness
-      real(dp), intent(in) :: load
-      real(dp), intent(in) :: velocity
-      real(dp) :: value, by_film, by_other
-      integer :: outcome
+      !> How many, at most most_films
+      integer, intent(in) :: n
+      !> h > 0 [m], W [N] and h' [m/s] where it is asked for
+      real(dp), intent(in) :: thickness(n)
+      real(dp), intent(in) :: load(n)
+      real(dp), intent(in) :: velocity(n)
+      !> The first n of them are set
+      type(film_equations_t), intent(out) :: equations
+      integer :: outcome(most_films), i
 
-      call squeeze_velocity(contact%film, thickness, load, velocity, value, by_film, by_other, outcome)
-      if (tells_velocity(contact, thickness, by_other, outcome)) then
-         equation = film_equation_t(.true., outcome == load_carried, outcome == load_too_large, value, by_film, by_other)
-      else
-         call film_load(contact%film, thickness, velocity, value, by_film, by_other)
-         equation = film_equation_t(.false., abs(value) < overflow_load,.not. abs(value) < overflow_load, value, by_film, by_other)
-      end if
-   end function equation_of_film
+      associate (these => equations)
+         call squeeze_velocities(contact%film, n, thickness, load, velocity, these%value, these%by_film, these%by_other, outcome)
+         these%of_velocities = .true.
+         these%exists(:n) = outcome(:n) == load_carried
+         these%overloaded(:n) = outcome(:n) == load_too_large
+         if (never_pulls(contact%film)) return
+         do i = 1, n
+            if (tells_velocity(contact, thickness(i), these%by_other(i), outcome(i))) cycle
+            call film_load(contact%film, thickness(i), velocity(i), these%value(i), these%by_film(i), these%by_other(i))
+            these%of_velocities(i) = .false.
+            these%exists(i) = abs(these%value(i)) < overflow_load
+            these%overloaded(i) = .not. these%exists(i)
+         end do
+      end associate
+   end subroutine equations_of_films
 
-   !> Whether the load of a film tells its velocity.
+   !> Whether the load of a film that may pull, or holds on to a part of it, tells its velocity.
    pure logical function tells_velocity(contact, thickness, velocity_by_load, outcome)
       type(flank_contact_t), intent(in) :: contact
       !> h [m], slope of its velocity at the load [m/(N s)]
@@ -252,8 +259,8 @@ contains
       integer, intent(in) :: outcome
       type(load_t) :: still
 
-      tells_velocity = never_pulls(contact%film)
-      if (tells_velocity .or. outcome /= load_carried) return
+      tells_velocity = .false.
+      if (outcome /= load_carried) return
       call film_load(contact%film, thickness, 0.0_dp, still%load, still%by_film, still%by_velocity)
       tells_velocity = velocity_by_load < 0.0_dp .and. velocity_by_load*still%by_velocity < flattest
    end function tells_velocity

@@ -13,6 +13,7 @@
 !> what they were fitted to, and how far they are off, stands in input/README.md.
 module elastohydrodynamic_closure
    use constants, only: pi
+   use elementary_functions, only: exponentials, logarithm, logarithms
    use flank_elasticity, only: elastic_scale, roelands_logarithm
    use kinds, only: dp
    use reynolds_iso_viscous, only: iso_viscous_load
@@ -38,6 +39,9 @@ module elastohydrodynamic_closure
       real(dp) :: pressure_ratio = 0.0_dp
    end type closure_t
 
+   !> Films that are asked for at once, at most: their numbers fill registers, and stand where no memory is asked for
+   integer, parameter, public :: most_films = 16
+
    !> Largest load M, material number L and alpha p that the constants were fitted to [-]
    real(dp), parameter, public :: largest_load = 2.0_dp, largest_material = 20.0_dp, largest_alpha_p = 8.0_dp
 
@@ -51,21 +55,16 @@ module elastohydrodynamic_closure
    !> Reference pressure of Roelands' law [Pa]
    real(dp), parameter :: roelands_pressure = 1.96e8_dp
 
-   !> Factors of the flows and their slopes.
-   type :: factors_t
-      !> ln g_r and ln g_s, and what they change by with H and with M
-      real(dp) :: rolling, rolling_by_film, rolling_by_load
-      real(dp) :: squeeze, squeeze_by_film, squeeze_by_load
-   end type factors_t
-
    !> Newton's iterations at most, and the step of a logarithm after which all digits are there
    integer, parameter :: most_passes = 100
    real(dp), parameter :: last_step = 1.0e-13_dp
+   !> Step of a film, as a share of it, that leaves an error of half its square, and so all digits
+   real(dp), parameter :: last_share = 1.0e-8_dp
    !> Loads of a film beyond which no search goes [-]
    real(dp), parameter :: beyond_all = 1.0e60_dp
 
-   public :: closure_of, closure_velocity, closure_load, closure_steady_film, closure_width, closure_film, closure_pressure, &
-             is_fitted, thicken
+   public :: closure_of, closure_velocity, closure_velocities, closure_load, closure_steady_film, closure_width, closure_film, &
+             closure_films, closure_pressure, is_fitted, thicken
 
 contains
 
@@ -113,23 +112,60 @@ contains
       real(dp), intent(out) :: by_load
       !> Whether there is one, a code of module squeeze_of_load
       integer, intent(out) :: outcome
-      type(factors_t) :: factors
-      real(dp) :: group, a, a_by_group, scale
+      real(dp), dimension(1) :: velocities, by_films, by_loads
+      integer :: outcomes(1)
 
-      factors = factors_of(closure, film, max(load, 0.0_dp))
-      group = load*film/12.0_dp*exp(-factors%rolling)
-      call iso_viscous_squeeze(group, a, a_by_group, outcome)
-      velocity = 0.0_dp
-      by_film = 0.0_dp
-      by_load = 0.0_dp
-      if (outcome /= load_carried) return
-      scale = sqrt(0.5_dp*film)*exp(factors%rolling - factors%squeeze)
-      velocity = scale*a
-      by_film = velocity*(0.5_dp/film + factors%rolling_by_film - factors%squeeze_by_film) + &
-                scale*a_by_group*group*(1.0_dp/film - factors%rolling_by_film)
-      by_load = velocity*(factors%rolling_by_load - factors%squeeze_by_load) + &
-                scale*a_by_group*group*(1.0_dp/load - factors%rolling_by_load)
+      call closure_velocities(closure, 1, [film], [load], velocities, by_films, by_loads, outcomes)
+      velocity = velocities(1)
+      by_film = by_films(1)
+      by_load = by_loads(1)
+      outcome = outcomes(1)
    end subroutine closure_velocity
+
+   !> The same of many films, in full registers.
+   pure subroutine closure_velocities(closure, n, film, load, velocity, by_film, by_load, outcome)
+      type(closure_t), intent(in) :: closure
+      !> How many, at most most_films
+      integer, intent(in) :: n
+      !> H > 0 and M [-]
+      real(dp), intent(in) :: film(n)
+      real(dp), intent(in) :: load(n)
+      !> H' [-]; it and its slopes are 0 where no velocity gives the load
+      real(dp), intent(out) :: velocity(n)
+      real(dp), intent(out) :: by_film(n)
+      real(dp), intent(out) :: by_load(n)
+      !> Whether there is one, a code of module squeeze_of_load
+      integer, intent(out) :: outcome(n)
+      real(dp), dimension(most_films, 2) :: factor, factor_by_film, factor_by_load, exponent, growth
+      real(dp), dimension(most_films) :: held, group, a, a_by_group
+      real(dp) :: scale, change
+      integer :: flow, i
+
+      held(:n) = max(load, 0.0_dp)
+      call factors_of(closure, n, film, held, factor, factor_by_film, factor_by_load)
+      exponent(:n, 1) = -factor(:n, 1)
+      exponent(:n, 2) = factor(:n, 1) - factor(:n, 2)
+      do flow = 1, 2
+         call exponentials(n, exponent(:, flow), growth(:, flow))
+      end do
+      do i = 1, n
+         group(i) = load(i)*film(i)*growth(i, 1)/12.0_dp
+         call iso_viscous_squeeze(group(i), a(i), a_by_group(i), outcome(i))
+         if (outcome(i) == load_carried) cycle
+         a(i) = 0.0_dp
+         a_by_group(i) = 0.0_dp
+      end do
+      !$omp simd private(scale, change)
+      do i = 1, n
+         scale = sqrt(0.5_dp*film(i))*growth(i, 2)
+         change = scale*a_by_group(i)
+         velocity(i) = scale*a(i)
+         by_film(i) = velocity(i)*(0.5_dp/film(i) + factor_by_film(i, 1) - factor_by_film(i, 2)) + &
+                      change*group(i)*(1.0_dp/film(i) - factor_by_film(i, 1))
+         by_load(i) = velocity(i)*(factor_by_load(i, 1) - factor_by_load(i, 2)) + &
+                      change*(film(i)*growth(i, 1)/12.0_dp - group(i)*factor_by_load(i, 1))
+      end do
+   end subroutine closure_velocities
 
    !> Load of a film that moves, and its slopes. Of loads at which it moves alike this is the smallest; the slopes follow from those
    !> of the velocity.
@@ -221,7 +257,7 @@ contains
       type(closure_t), intent(in) :: closure
       !> M > 0 [-]
       real(dp), intent(in) :: load
-      type(factors_t) :: factors
+      real(dp), dimension(most_films, 2) :: factor, by_film, by_load
       real(dp) :: still, slope, place, least, step
       integer :: pass
 
@@ -230,8 +266,8 @@ contains
       place = least
       do pass = 1, most_passes
          film = exp(place)
-         factors = factors_of(closure, film, load)
-         step = (factors%rolling + least - place)/(1.0_dp - factors%rolling_by_film*film)
+         call factors_of(closure, 1, [film], [load], factor, by_film, by_load)
+         step = (factor(1, 1) + least - place)/(1.0_dp - by_film(1, 1)*film)
          place = place + step
          if (abs(step) <= last_step*max(1.0_dp, abs(place))) exit
       end do
@@ -251,16 +287,15 @@ contains
       real(dp), intent(out) :: by_film
       !> [m/N]
       real(dp), intent(out) :: by_load
-      real(dp) :: m, width, share, logarithm
+      real(dp) :: m, width, share, logarithm_of_width
 
       share = -2.0_dp/pi*(closure%film_unit/closure%load_unit)
       m = load/closure%load_unit
       width = film_width*film/closure%film_unit + load_width*max(m, 0.0_dp)
-      logarithm = log(width)
-      gives = share*load*logarithm
+      logarithm_of_width = logarithm(width)
+      gives = share*load*logarithm_of_width
       by_film = share*load*film_width/(closure%film_unit*width)
-      by_load = share*logarithm
-      if (m > 0.0_dp) by_load = by_load + share*load*load_width/(closure%load_unit*width)
+      by_load = share*logarithm_of_width + share*max(load, 0.0_dp)*load_width/(closure%load_unit*width)
    end subroutine closure_width
 
    !> Film whose flanks leave a gap once they have given way for the width of the contact: h less `closure_width` is what is given,
@@ -273,7 +308,6 @@ contains
       real(dp), intent(in) :: load
       !> A film near by, which saves time [m]
       real(dp), intent(in) :: near
-      real(dp), parameter :: rounding = 4.0_dp*epsilon(1.0_dp)
       real(dp) :: gives, by_film, by_load, step
       integer :: pass
 
@@ -288,9 +322,60 @@ contains
          call closure_width(closure, film, load, gives, by_film, by_load)
          step = (gap + gives - film)/(1.0_dp - by_film)
          film = max(film + step, 0.0_dp)
-         if (abs(step) <= rounding*film) return
+         if (abs(step) <= last_share*film) return
       end do
    end function closure_film
+
+   !> The same of many films in full registers, with their slopes in the gaps and the loads. A load that is none has no width.
+   pure subroutine closure_films(closure, n, gap, load, near, film, by_gap, by_load)
+      type(closure_t), intent(in) :: closure
+      !> How many, at most most_films
+      integer, intent(in) :: n
+      !> [m]
+      real(dp), intent(in) :: gap(n)
+      !> W [N]
+      real(dp), intent(in) :: load(n)
+      !> Films near by, which save time [m]
+      real(dp), intent(in) :: near(n)
+      !> [m]
+      real(dp), intent(out) :: film(n)
+      !> Slopes of what the width gives, at that film [-], [m/N]
+      real(dp), intent(out) :: by_gap(n)
+      real(dp), intent(out) :: by_load(n)
+      real(dp), dimension(most_films) :: held, width, logarithm_of_width, by_film, gives
+      real(dp) :: share, film_share, load_share, next, farthest
+      integer :: pass, i
+
+      share = -2.0_dp/pi*(closure%film_unit/closure%load_unit)
+      film_share = film_width/closure%film_unit
+      load_share = load_width/closure%load_unit
+      held(:n) = max(load, tiny(1.0_dp)/epsilon(1.0_dp)*closure%load_unit)
+      film = max(near, 0.0_dp)
+      do pass = 1, most_passes
+         width(:n) = film_share*film + load_share*held(:n)
+         call logarithms(n, width, logarithm_of_width)
+         farthest = 0.0_dp
+         !$omp simd private(next) reduction(max: farthest)
+         do i = 1, n
+            gives(i) = share*held(i)*logarithm_of_width(i)
+            by_film(i) = share*held(i)*film_share/width(i)
+            next = max(film(i) + (gap(i) + gives(i) - film(i))/(1.0_dp - by_film(i)), 0.0_dp)
+            farthest = max(farthest, abs(next - film(i)) - last_share*next)
+            film(i) = next
+         end do
+         if (farthest <= 0.0_dp) exit
+      end do
+      do i = 1, n
+         by_load(i) = share*logarithm_of_width(i) + share*held(i)*load_share/width(i)
+         if (film(i) > 0.0_dp) then
+            by_load(i) = by_load(i)/(1.0_dp - by_film(i))
+            by_gap(i) = by_film(i)/(1.0_dp - by_film(i))
+         else
+            film(i) = gap(i) + gives(i)
+            by_gap(i) = 0.0_dp
+         end if
+      end do
+   end subroutine closure_films
 
    !> Largest pressure of a film [Pa]: within 3 % where pressure does not thicken the oil.
    elemental real(dp) function closure_pressure(closure, film, load) result(pressure)
@@ -316,57 +401,103 @@ contains
                   .and. closure%material*pressure <= largest_alpha_p*closure%pressure_unit
    end function is_fitted
 
-   !> Factors of the flows at a film and a load.
-   elemental type(factors_t) function factors_of(closure, film, load) result(factors)
+   !> Factors of the flows of many films and loads: of g_r and of g_s.
+   pure subroutine factors_of(closure, n, film, load, factor, by_film, by_load)
       type(closure_t), intent(in) :: closure
+      !> How many, at most most_films
+      integer, intent(in) :: n
       !> H > 0 and M >= 0 [-]
-      real(dp), intent(in) :: film
-      real(dp), intent(in) :: load
-      real(dp) :: s, s_by_film, s_by_load, q, q_by_film, q_by_load, inverse_square, logarithm, slope
+      real(dp), intent(in) :: film(n)
+      real(dp), intent(in) :: load(n)
+      !> ln g of the first n, and its slopes in H and M [-]
+      real(dp), intent(out) :: factor(most_films, 2)
+      real(dp), intent(out) :: by_film(most_films, 2)
+      real(dp), intent(out) :: by_load(most_films, 2)
+      real(dp), parameter :: bend(2) = [rolling_bend, squeeze_bend], pressure(2) = [rolling_pressure, squeeze_pressure]
+      real(dp), parameter :: of_bend(2) = [1.0_dp, squeeze_exponent], of_oil(2) = [rolling_exponent, 1.0_dp]
+      real(dp), dimension(most_films) :: at, thicker, slope, bent
+      real(dp), dimension(most_films) :: q, q_by_film, q_by_load
+      real(dp) :: inverse_square, inverse, change
+      integer :: flow, i
 
-      s = load/film
-      s_by_film = -s/film
-      s_by_load = 1.0_dp/film
-      inverse_square = 1.0_dp/(2.0_dp*film + 8.0_dp/pi*load)
-      q_by_load = sqrt(inverse_square)
-      q = load*q_by_load
-      q_by_film = -q*inverse_square
-      q_by_load = q_by_load - q*inverse_square*4.0_dp/pi
-
-      call thicken(closure, rolling_pressure*q, logarithm, slope)
-      slope = rolling_exponent*rolling_pressure*slope
-      factors%rolling = log(1.0_dp + rolling_bend*s) + rolling_exponent*logarithm
-      factors%rolling_by_film = rolling_bend/(1.0_dp + rolling_bend*s)*s_by_film + slope*q_by_film
-      factors%rolling_by_load = rolling_bend/(1.0_dp + rolling_bend*s)*s_by_load + slope*q_by_load
-
-      call thicken(closure, squeeze_pressure*q, logarithm, slope)
-      slope = squeeze_pressure*slope
-      factors%squeeze = squeeze_exponent*log(1.0_dp + squeeze_bend*s) + logarithm
-      factors%squeeze_by_film = squeeze_exponent*squeeze_bend/(1.0_dp + squeeze_bend*s)*s_by_film + slope*q_by_film
-      factors%squeeze_by_load = squeeze_exponent*squeeze_bend/(1.0_dp + squeeze_bend*s)*s_by_load + slope*q_by_load
-   end function factors_of
+      !$omp simd private(inverse_square, inverse)
+      do i = 1, n
+         inverse_square = 1.0_dp/(2.0_dp*film(i) + 8.0_dp/pi*load(i))
+         inverse = sqrt(inverse_square)
+         q(i) = load(i)*inverse
+         q_by_film(i) = -q(i)*inverse_square
+         q_by_load(i) = inverse - q(i)*inverse_square*(4.0_dp/pi)
+      end do
+      do flow = 1, 2
+         at(:n) = pressure(flow)*q(:n)
+         bent(:n) = 1.0_dp + bend(flow)*(load/film)
+         call thicken_many(closure, n, at, thicker, slope)
+         call logarithms(n, bent, factor(:, flow))
+         !$omp simd private(change)
+         do i = 1, n
+            change = of_bend(flow)*bend(flow)/(film(i)*bent(i))
+            factor(i, flow) = of_bend(flow)*factor(i, flow) + of_oil(flow)*thicker(i)
+            slope(i) = of_oil(flow)*pressure(flow)*slope(i)
+            by_film(i, flow) = slope(i)*q_by_film(i) - change*(load(i)/film(i))
+            by_load(i, flow) = slope(i)*q_by_load(i) + change
+         end do
+      end do
+   end subroutine factors_of
 
    !> ln(eta/eta0) at a pressure, and its slope.
-   elemental subroutine thicken(closure, pressure, logarithm, slope)
+   elemental subroutine thicken(closure, pressure, thicker, slope)
       type(closure_t), intent(in) :: closure
       !> P [-]
       real(dp), intent(in) :: pressure
-      real(dp), intent(out) :: logarithm
+      real(dp), intent(out) :: thicker
       real(dp), intent(out) :: slope
-      real(dp) :: growth
 
       select case (closure%viscosity_law)
       case (viscosity_barus)
-         logarithm = closure%material*pressure
+         thicker = closure%material*pressure
          slope = closure%material
       case (viscosity_roelands)
-         growth = (1.0_dp + closure%pressure_ratio*pressure)**closure%exponent
-         logarithm = closure%logarithm*(growth - 1.0_dp)
-         slope = closure%logarithm*closure%exponent*closure%pressure_ratio*growth/(1.0_dp + closure%pressure_ratio*pressure)
+         call thicken_by_roelands(closure, pressure, (1.0_dp + closure%pressure_ratio*pressure)**closure%exponent, thicker, slope)
       case default
-         logarithm = 0.0_dp
+         thicker = 0.0_dp
          slope = 0.0_dp
       end select
    end subroutine thicken
+
+   !> The same at many pressures.
+   pure subroutine thicken_many(closure, n, pressure, thicker, slope)
+      type(closure_t), intent(in) :: closure
+      !> How many, at most most_films
+      integer, intent(in) :: n
+      !> P [-]
+      real(dp), intent(in) :: pressure(n)
+      real(dp), intent(out) :: thicker(n)
+      real(dp), intent(out) :: slope(n)
+      real(dp), dimension(most_films) :: base, exponent, growth
+
+      if (closure%viscosity_law == viscosity_roelands) then
+         base(:n) = 1.0_dp + closure%pressure_ratio*pressure
+         call logarithms(n, base, exponent)
+         exponent(:n) = closure%exponent*exponent(:n)
+         call exponentials(n, exponent, growth)
+         call thicken_by_roelands(closure, pressure, growth(:n), thicker, slope)
+      else
+         call thicken(closure, pressure, thicker, slope)
+      end if
+   end subroutine thicken_many
+
+   !> The same by Roelands' law, from the power in it.
+   elemental subroutine thicken_by_roelands(closure, pressure, growth, thicker, slope)
+      type(closure_t), intent(in) :: closure
+      !> P [-]
+      real(dp), intent(in) :: pressure
+      !> (1 + p/1.96e8 Pa)^z [-]
+      real(dp), intent(in) :: growth
+      real(dp), intent(out) :: thicker
+      real(dp), intent(out) :: slope
+
+      thicker = closure%logarithm*(growth - 1.0_dp)
+      slope = closure%logarithm*closure%exponent*closure%pressure_ratio*growth/(1.0_dp + closure%pressure_ratio*pressure)
+   end subroutine thicken_by_roelands
 
 end module elastohydrodynamic_closure

@@ -4,8 +4,8 @@
 !> film that carries one, no kernel.
 module film_law
    use constants, only: pi
-   use elastohydrodynamic_closure, only: closure_film, closure_load, closure_of, closure_steady_film, closure_t, closure_velocity, &
-                                         closure_width
+   use elastohydrodynamic_closure, only: closure_film, closure_films, closure_load, closure_of, closure_steady_film, closure_t, &
+                                         closure_velocities, closure_velocity, closure_width, most_films
    use flank_elasticity, only: contact_radius, plane_strain_modulus
    use kinds, only: dp
    use published_iso_viscous, only: half_pi_rupture_load, rolling_coefficient, solved_rupture_load, squeeze_coefficient
@@ -92,7 +92,7 @@ module film_law
    end interface
 
    public :: new_film, with_exact_film, kernel_of, film_load, film_loads, mixed_film_loads, steady_film, squeeze_velocity, &
-             width_compression, film_over_gap, never_pulls, law_words, film_kernel
+             squeeze_velocities, width_compression, film_over_gap, films_over_gaps, most_films, never_pulls, law_words, film_kernel
 
 contains
 
@@ -399,6 +399,44 @@ contains
       end select
    end subroutine squeeze_velocity
 
+   !> The same of many films. Which law it is, is asked once, and some run in full registers.
+   pure subroutine squeeze_velocities(film, n, thickness, load, near, velocity, velocity_by_film, velocity_by_load, outcome)
+      type(film_t), intent(in) :: film
+      !> How many, at most most_films
+      integer, intent(in) :: n
+      !> Film thicknesses h > 0 [m]
+      real(dp), intent(in) :: thickness(n)
+      !> Loads W [N]
+      real(dp), intent(in) :: load(n)
+      !> What the velocities are likely to be; 0 where nothing is known [m/s]
+      real(dp), intent(in) :: near(n)
+      !> Film velocities w = dh/dt [m/s], their slopes [1/s], [m/(N s)]
+      real(dp), intent(out) :: velocity(n)
+      real(dp), intent(out) :: velocity_by_film(n)
+      real(dp), intent(out) :: velocity_by_load(n)
+      !> Whether some velocity gives the load, one of load_... of module squeeze_of_load
+      integer, intent(out) :: outcome(n)
+      real(dp), dimension(most_films) :: scaled_film, scaled_load
+      integer :: i
+
+      select case (film%kernel)
+      case (kernel_closure)
+         associate (closure => film%closure)
+            scaled_film(:n) = thickness/closure%film_unit
+            scaled_load(:n) = load/closure%load_unit
+            call closure_velocities(closure, n, scaled_film, scaled_load, velocity, velocity_by_film, velocity_by_load, outcome)
+            velocity = velocity*closure%velocity_unit
+            velocity_by_film = velocity_by_film*(closure%velocity_unit/closure%film_unit)
+            velocity_by_load = velocity_by_load*(closure%velocity_unit/closure%load_unit)
+         end associate
+      case default
+         do i = 1, n
+            call squeeze_velocity(film, thickness(i), load(i), near(i), velocity(i), velocity_by_film(i), velocity_by_load(i), &
+                                  outcome(i))
+         end do
+      end select
+   end subroutine squeeze_velocities
+
    !> Compression of flanks that bend, beside the compliance behind them, and its slopes; 0 of flanks that do not.
    elemental subroutine width_compression(film, thickness, load, gives, by_film, by_load)
       type(film_t), intent(in) :: film
@@ -437,6 +475,26 @@ contains
       thickness = gap
       if (film%bends) thickness = closure_film(film%closure, gap, load, near)
    end function film_over_gap
+
+   !> The same of many flanks that bend, whose films must be looked for, with their slopes.
+   pure subroutine films_over_gaps(film, n, gap, load, near, thickness, by_gap, by_load)
+      type(film_t), intent(in) :: film
+      !> How many, at most most_films
+      integer, intent(in) :: n
+      !> [m]
+      real(dp), intent(in) :: gap(n)
+      !> Loads W [N]
+      real(dp), intent(in) :: load(n)
+      !> Films near by, which save time; 0 where none is known [m]
+      real(dp), intent(in) :: near(n)
+      !> [m]
+      real(dp), intent(out) :: thickness(n)
+      !> By how much the film grows more than the gap, and with the load [-], [m/N]
+      real(dp), intent(out) :: by_gap(n)
+      real(dp), intent(out) :: by_load(n)
+
+      call closure_films(film%closure, n, gap, load, near, thickness, by_gap, by_load)
+   end subroutine films_over_gaps
 
    !> The law that the group &film chooses, in words.
    pure function law_words(choice) result(words)

@@ -21,7 +21,7 @@ module elementary_functions
    real(dp), parameter :: inverse_factorial(0:exponential_terms) = &
       [(1.0_dp/gamma(real(i + 1, dp)), i=0, exponential_terms)]
 
-   public :: cosine_sine, exponential, logarithm
+   public :: cosine_sine, exponential, exponentials, logarithm, logarithms
 
 contains
 
@@ -107,6 +107,39 @@ contains
       end do
       logarithm = octaves*ln_2_high + (odd(0)*s + (s*square*sum + octaves*ln_2_low))
    end function logarithm
+
+   !> Exponential functions of many numbers. A loop that calls one function is compiled for full registers; one that calls several
+   !> is not.
+   pure subroutine exponentials(n, x, y)
+      !> How many
+      integer, intent(in) :: n
+      !> Arguments [-]
+      real(dp), intent(in) :: x(n)
+      !> exp(x) [-]
+      real(dp), intent(out) :: y(n)
+      integer :: k
+
+      !$omp simd
+      do k = 1, n
+         y(k) = exponential(x(k))
+      end do
+   end subroutine exponentials
+
+   !> Natural logarithms of many numbers.
+   pure subroutine logarithms(n, x, y)
+      !> How many
+      integer, intent(in) :: n
+      !> Positive [-]
+      real(dp), intent(in) :: x(n)
+      !> ln(x) [-]
+      real(dp), intent(out) :: y(n)
+      integer :: k
+
+      !$omp simd
+      do k = 1, n
+         y(k) = logarithm(x(k))
+      end do
+   end subroutine logarithms
 
    !> A number times two to the power of the integer that `rounder` has left at the end of a sum: it goes to the exponent.
    elemental real(dp) function with_octaves(number, sum)

@@ -18,8 +18,8 @@
 module elastic_step
    use collocation_step, only: choose_steps, forces_of_stages, highest_terms
    use film_state, only: load_t
-   use flank_contact, only: carries_positive_loads, equation_of_film, film_equation_t, film_over_gap, flank_contact_t, &
-      load_of_contact, width_compression
+   use flank_contact, only: carries_positive_loads, equations_of_films, film_equations_t, film_over_gap, films_over_gaps, &
+      flank_contact_t, load_of_contact, most_films, width_compression
    use inner_equations, only: can_extrapolate, error_of_states, first_states, follow_films, inner_imbalances, inner_matrix, &
       last_share, most_growth, most_rows, series_of_states, sign_of, trial_inner_t, trial_t
    use kinds, only: dp
@@ -45,6 +45,9 @@ module elastic_step
    !> Step over the one before, at least (at most it is most_growth), and its share of what the error allows. A rejected step costs
    !> as much as an accepted one; a step of twice the length before, whose loads cannot be extrapolated, takes twice the iterations.
    real(dp), parameter :: least_growth = 0.1_dp, step_share = 0.7_dp
+
+   !> The films of a flank at the nodes, and one more, that of the last node again, which fills up registers
+   integer, parameter :: films_of_flank = most_films/2
 
    !> Slopes of the equations at the nodes, of one flank after the other: by the film, by its velocity and by its load [-]
    type :: slopes_t
@@ -216,6 +219,8 @@ contains
       last_change = huge(1.0_dp)
       ! What an error of one in the loads moves the films by
       reach = max(block%step(lane)*min(block%step(lane), 1.0_dp/free_rate), block%compliance(lane))
+      trial%film(:, 1) = trial%start(1)
+      trial%film(:, 2) = trial%start(2)
       call states(contact, lane, force, block, trial)
       anew = .true.
       do pass = 1, most_passes
@@ -298,7 +303,7 @@ contains
       real(dp), intent(in) :: force(stages)
       type(lane_block_t), intent(in) :: block
       type(trial_t), intent(inout) :: trial
-      real(dp) :: yielded(stages)
+      real(dp), dimension(stages, 2) :: gap, yielded
       integer :: flank
 
       associate (s => block%step(lane), kappa => block%compliance(lane))
@@ -307,36 +312,60 @@ contains
          trial%lienard = block%lienard(lane, 0) + s*matmul(once, trial%acceleration)
          trial%way = s*(node*block%lienard(lane, 0) + s*matmul(twice, trial%acceleration))
          do flank = 1, trial%flanks
-            yielded = kappa*trial%load(:, flank) - block%compression(lane, flank, 0)
-            trial%film(:, flank) = trial%start(flank) + (sign_of(flank)*trial%way + yielded)
-            if (contact%film%bends) then
-               call bend(contact, lane, flank, block, trial)
-               yielded = yielded + (trial%width(:, flank) - trial%start_width(flank))
-            end if
-            trial%velocity(:, flank) = sign_of(flank)*trial%lienard + matmul(slope, yielded)/s
+            yielded(:, flank) = kappa*trial%load(:, flank) - block%compression(lane, flank, 0)
+            gap(:, flank) = trial%start(flank) + (sign_of(flank)*trial%way + yielded(:, flank))
+         end do
+         if (contact%film%bends) then
+            call bend(contact, lane, block, gap, yielded, trial)
+         else
+            trial%film(:, :trial%flanks) = gap(:, :trial%flanks)
+         end if
+         do flank = 1, trial%flanks
+            trial%velocity(:, flank) = sign_of(flank)*trial%lienard + matmul(slope, yielded(:, flank))/s
          end do
       end associate
    end subroutine states
 
-   !> Films of flanks that bend, from those that would be there if their width did not matter, and their compressions.
-   pure subroutine bend(contact, lane, flank, block, trial)
+   !> Films of flanks that bend, from those that would be there if their width stayed what it was, and their compressions. They are
+   !> looked for from where they were found last.
+   pure subroutine bend(contact, lane, block, gap, yielded, trial)
       type(flank_contact_t), intent(in) :: contact
       integer, intent(in) :: lane
-      integer, intent(in) :: flank
       type(lane_block_t), intent(in) :: block
+      !> Films without a change of width, of one or two flanks [-]
+      real(dp), intent(in) :: gap(stages, 2)
+      !> Compressions since the start, then with those by the width [-]
+      real(dp), intent(inout) :: yielded(stages, 2)
       type(trial_t), intent(inout) :: trial
-      real(dp), dimension(stages) :: film, load, width, by_film, by_load
-      real(dp) :: scale
+      real(dp), dimension(films_of_flank, 2) :: gaps, loads, near, films, by_gap, by_load
+      integer :: flank
 
-      scale = block%film_scale(lane)
-      load = trial%load(:, flank)*block%force_scale(lane)
-      film = film_over_gap(contact%film, (trial%film(:, flank) - trial%start_width(flank))*scale, load, trial%start(flank)*scale)
-      call width_compression(contact%film, film, load, width, by_film, by_load)
-      trial%film(:, flank) = film/scale
-      trial%width(:, flank) = width/scale
-      trial%follows(:, flank) = by_film/(1.0_dp - by_film)
-      trial%compliance(:, flank) = (block%compliance(lane) + by_load*(block%force_scale(lane)/scale))/(1.0_dp - by_film)
+      associate (scale => block%film_scale(lane), unit => block%force_scale(lane))
+         do flank = 1, trial%flanks
+            gaps(:, flank) = filled_up(gap(:, flank) - trial%start_width(flank))*scale
+            loads(:, flank) = filled_up(trial%load(:, flank))*unit
+            near(:, flank) = filled_up(trial%film(:, flank))*scale
+         end do
+         call films_over_gaps(contact%film, films_of_flank*trial%flanks, gaps, loads, near, films, by_gap, by_load)
+         do flank = 1, trial%flanks
+            trial%film(:, flank) = films(:stages, flank)/scale
+            trial%width(:, flank) = trial%film(:, flank) - (gap(:, flank) - trial%start_width(flank))
+            yielded(:, flank) = yielded(:, flank) + (trial%width(:, flank) - trial%start_width(flank))
+            trial%follows(:, flank) = by_gap(:stages, flank)
+            trial%compliance(:, flank) = block%compliance(lane)*(1.0_dp + by_gap(:stages, flank)) + &
+                                         by_load(:stages, flank)*(unit/scale)
+         end do
+      end associate
    end subroutine bend
+
+   !> Values at the nodes, the last one twice.
+   pure function filled_up(values) result(filled)
+      real(dp), intent(in) :: values(stages)
+      real(dp) :: filled(films_of_flank)
+
+      filled(:stages) = values
+      filled(stages + 1:) = values(stages)
+   end function filled_up
 
    !> By how much the film laws miss at the nodes, and their slopes; none where a film has no load. A film without thickness is to
    !> be what it was at the start.
@@ -348,19 +377,25 @@ contains
       real(dp), intent(out) :: right(2*stages)
       type(slopes_t), intent(out) :: slopes
       logical, intent(out) :: found
-      type(film_equation_t) :: law
-      real(dp) :: film_over_velocity, force_over_velocity, film_over_force, velocity_over_force
-      integer :: row, flank, i
+      type(film_equations_t) :: laws
+      real(dp), dimension(films_of_flank, 2) :: films, loads, velocities
+      real(dp) :: film_unit, velocity_unit, force_unit
+      integer :: row, flank, place, i
 
-      found = .true.
       right = 0.0_dp
-      film_over_velocity = block%film_scale(lane)/block%velocity_scale(lane)
-      force_over_velocity = block%force_scale(lane)/block%velocity_scale(lane)
-      film_over_force = block%film_scale(lane)/block%force_scale(lane)
-      velocity_over_force = block%velocity_scale(lane)/block%force_scale(lane)
+      film_unit = block%film_scale(lane)
+      velocity_unit = block%velocity_scale(lane)
+      force_unit = block%force_scale(lane)
+      do flank = 1, trial%flanks
+         films(:, flank) = filled_up(merge(trial%film(:, flank), trial%start(flank), trial%film(:, flank) > 0.0_dp))*film_unit
+         loads(:, flank) = filled_up(trial%load(:, flank))*force_unit
+         velocities(:, flank) = filled_up(trial%velocity(:, flank))*velocity_unit
+      end do
+      call equations_of_films(contact, films_of_flank*trial%flanks, films, loads, velocities, laws)
       do flank = 1, trial%flanks
          do i = 1, stages
             row = stages*(flank - 1) + i
+            place = films_of_flank*(flank - 1) + i
             if (.not. trial%film(i, flank) > 0.0_dp) then
                right(row) = trial%film(i, flank) - trial%start(flank)
                slopes%by_film(row) = -1.0_dp
@@ -368,25 +403,23 @@ contains
                slopes%by_load(row) = 0.0_dp
                cycle
             end if
-            law = equation_of_film(contact, trial%film(i, flank)*block%film_scale(lane), &
-                                   trial%load(i, flank)*block%force_scale(lane), &
-                                   trial%velocity(i, flank)*block%velocity_scale(lane))
-            block%no_load(lane) = law%overloaded
-            found = law%exists
+            block%no_load(lane) = laws%overloaded(place)
+            found = laws%exists(place)
             if (.not. found) return
-            if (law%of_velocities) then
-               right(row) = law%value/block%velocity_scale(lane) - trial%velocity(i, flank)
-               slopes%by_film(row) = -law%by_film*film_over_velocity
+            if (laws%of_velocities(place)) then
+               right(row) = laws%value(place)/velocity_unit - trial%velocity(i, flank)
+               slopes%by_film(row) = -laws%by_film(place)*(film_unit/velocity_unit)
                slopes%by_velocity(row) = 1.0_dp
-               slopes%by_load(row) = -law%by_other*force_over_velocity
+               slopes%by_load(row) = -laws%by_other(place)*(force_unit/velocity_unit)
             else
-               right(row) = law%value/block%force_scale(lane) - trial%load(i, flank)
-               slopes%by_film(row) = -law%by_film*film_over_force
-               slopes%by_velocity(row) = -law%by_other*velocity_over_force
+               right(row) = laws%value(place)/force_unit - trial%load(i, flank)
+               slopes%by_film(row) = -laws%by_film(place)*(film_unit/force_unit)
+               slopes%by_velocity(row) = -laws%by_other(place)*(velocity_unit/force_unit)
                slopes%by_load(row) = 1.0_dp
             end if
          end do
       end do
+      found = .true.
    end subroutine imbalances
 
    !> Newton's matrix: what the loads at the nodes change of the equations there.

@@ -5,8 +5,9 @@ module test_elastohydrodynamic_closure
    use checks, only: check_list_t
    use constants, only: pi
    use controlled_engine, only: solve_window
-   use elastohydrodynamic_closure, only: closure_film, closure_load, closure_of, closure_pressure, closure_steady_film, closure_t, &
-                                         closure_velocity, closure_width
+   use elastohydrodynamic_closure, only: closure_film, closure_films, closure_load, closure_of, closure_pressure, &
+                                         closure_steady_film, closure_t, closure_velocities, closure_velocity, closure_width, &
+                                         most_films
    use engine, only: ending_t, start_of
    use film_law, only: film_load, film_t, new_film, squeeze_velocity, steady_film
    use flank_elasticity, only: flank_compliance, flattening_compliance
@@ -39,6 +40,7 @@ contains
       call test_there_and_back(checks)
       call test_slopes(checks)
       call test_width(checks)
+      call test_many_films(checks)
       call test_units(checks)
       call test_scene_g(checks)
       call test_total_compliance(checks)
@@ -232,6 +234,59 @@ contains
       call checks%check(closure_film(closure, -100.0_dp*closure%film_unit, load, 0.0_dp) < 0.0_dp, 'no film leaves such a gap')
       call checks%check_close(closure_film(closure, film, 0.0_dp, 0.0_dp), film, 0.0_dp, 'without a load the gap is the film')
    end subroutine test_width
+
+   !> Many films at once are each of them alone, those without load or without room included.
+   subroutine test_many_films(checks)
+      type(check_list_t), intent(inout) :: checks
+      ! Both take the same steps but for sums that the compiler may fuse, and end within the last digits of Newton's method.
+      real(dp), parameter :: tolerance = 1.0e-12_dp
+      integer, parameter :: laws(3) = [viscosity_constant, viscosity_barus, viscosity_roelands]
+      type(closure_t) :: closure
+      real(dp), dimension(most_films) :: gap, film, load, near, velocity, by_film, by_load, by_gap, alone
+      real(dp) :: velocity_alone, by_film_alone, by_load_alone, worst, worst_film
+      integer :: outcome(most_films), outcome_alone, law, round, i
+      logical :: same
+
+      do law = 1, 3
+         closure = unit_closure(laws(law), 5.0_dp)
+         worst = 0.0_dp
+         worst_film = 0.0_dp
+         same = .true.
+         do round = 1, 40
+            do i = 1, most_films
+               film(i) = closure%film_unit*10.0_dp**(-1.0_dp + 4.0_dp*modulo(0.618_dp*real(16*round + i, dp), 1.0_dp))
+               load(i) = closure%load_unit*10.0_dp**(-4.0_dp + 5.0_dp*modulo(0.755_dp*real(16*round + i, dp), 1.0_dp))
+            end do
+            load(3) = 0.0_dp
+            gap = film
+            gap(5) = -100.0_dp*closure%film_unit
+            near = film*0.9_dp
+            call closure_films(closure, most_films, gap, load, near, film, by_gap, by_load)
+            alone = closure_film(closure, gap, load, near)
+            worst_film = max(worst_film, maxval(abs(film/alone - 1.0_dp)))
+            do i = 1, most_films
+               call closure_width(closure, max(film(i), 0.0_dp), load(i), velocity_alone, by_film_alone, by_load_alone)
+               if (film(i) < 0.0_dp) by_film_alone = 0.0_dp
+               if (i /= 3) worst_film = max(worst_film, abs(by_gap(i)*(1.0_dp - by_film_alone) - by_film_alone), &
+                                            abs(by_load(i)*(1.0_dp - by_film_alone)/by_load_alone - 1.0_dp))
+            end do
+            film(5) = closure%film_unit
+            film = film/closure%film_unit
+            load = load/closure%load_unit
+            call closure_velocities(closure, most_films, film, load, velocity, by_film, by_load, outcome)
+            do i = 1, most_films
+               call closure_velocity(closure, film(i), load(i), velocity_alone, by_film_alone, by_load_alone, outcome_alone)
+               same = same .and. outcome(i) == outcome_alone
+               if (i == 3) same = same .and. .not. abs(velocity(i)) + abs(by_film(i)) + abs(by_load(i)) > 0.0_dp
+               if (i /= 3) worst = max(worst, abs(velocity(i) - velocity_alone)/abs(velocity_alone), &
+                                       abs(by_load(i) - by_load_alone)/abs(by_load_alone))
+            end do
+         end do
+         call checks%check(same, 'many films: which carry their load: '//trim(law_names(law)))
+         call checks%check_close(worst, 0.0_dp, tolerance, 'many films: velocities: '//trim(law_names(law)))
+         call checks%check_close(worst_film, 0.0_dp, 1.0e-7_dp, 'many films: over their gaps: '//trim(law_names(law)))
+      end do
+   end subroutine test_many_films
 
    !> Film of a scene in SI units: that of Moes' variables, and Reynolds' where the load is small.
    subroutine test_units(checks)
