@@ -61,6 +61,7 @@ KNOW_FLANKS = {
         "motion/load_record",
         "motion/node_extremes",
         "motion/window_record",
+        "run/automatic_model",
         "run/judged_scene",
         "run/profiles_table",
         "run/sample_recorder",

@@ -15,7 +15,7 @@ module campaign_record
    !> Numbers of a list that are recorded.
    integer, parameter :: recorded_numbers = 8
 
-   public :: record_columns, record_motions, record_row
+   public :: record_columns, record_motions, record_number, record_row
 
 contains
 
@@ -101,6 +101,24 @@ contains
          end if
       end do
    end subroutine record_row
+
+   !> Put a number into its place in a row, if it is recorded.
+   pure subroutine record_number(scene, code, number, row)
+      !> Base scene, for the choice of columns
+      type(scene_t), intent(in) :: scene
+      !> Code of a quantity that is no list
+      integer, intent(in) :: code
+      real(dp), intent(in) :: number
+      !> With all other columns
+      real(dp), intent(inout) :: row(:)
+      integer :: i, column
+
+      column = size(row)
+      do i = size(scene%campaign%record), 1, -1
+         if (scene%campaign%record(i) == code) row(column) = number
+         column = column - merge(recorded_numbers, 1, quantity_table(scene%campaign%record(i))%kind == a_list)
+      end do
+   end subroutine record_number
 
    !> Put what is known of all motions of a scene into its row.
    pure subroutine record_motions(scene, judged, row)

@@ -2,11 +2,12 @@
 module solve_chunk
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use campaign_verification, only: verify_group, compared
-   use campaign_record, only: record_motions, record_row
+   use campaign_record, only: record_motions, record_number, record_row
+   use automatic_model, only: nodes_stopped, reason_for_nodes, reason_t, scene_in_nodes, solve_in_nodes_alone
    use errors, only: error_t
    use engine, only: asks_for_same, ending_t, motion_state_t, request_t, reserved_periods, start_of
    use judge_scene, only: note_record, note_regime
-   use judged_scene, only: judged_scene_t, quantity_value
+   use judged_scene, only: film_model_stopped, judged_scene_t, quantity_value
    use key_table, only: find_key
    use force, only: force_of, largest_oscillation
    use grid_blocks, only: block_scenes
@@ -16,7 +17,7 @@ module solve_chunk
    use node_extremes, only: seen_quantities
    use periodic_orbit, only: periodic_orbit_t
    use quantities, only: asks_to_verify, need_count, needs_verification, needs_impacts, needs_motion_verdicts, needs_starts, &
-      needs_of, needs_orbit, needs_regime, needs_spectrum, needs_verified_impacts
+      needs_of, needs_of_choice, needs_orbit, needs_regime, needs_spectrum, needs_verified_impacts, quantity_film_model
    use resolved_scene, only: engine_request => request_of, resolve, resolved_scene_t
    use row_motions, only: motion_from_rest, row_motions_t
    use sampling, only: chunk_values, largest_value, method_grid, sample_plan_t
@@ -78,6 +79,8 @@ contains
       needed = needs_of(base%campaign%record)
       ! A single scene looks for its orbit while it is put to the test.
       needed(needs_orbit) = needed(needs_orbit) .and. base%spectrum%verify
+      ! What tells whether the closure will do
+      if (base%film%automatic) needed = needed .or. needs_of_choice()
       if (needed(needs_verification)) needed(compared) = .true.
       scene = base
       scene%resolved_input = ''
@@ -176,11 +179,13 @@ contains
       type(request_t) :: requests(size(values, 2))
       type(spectrum_choice_t) :: choices(size(values, 2))
       type(row_motions_t) :: found(size(values, 2))
+      type(reason_t) :: reason
       real(dp) :: costs(size(values, 2))
       integer :: order(size(values, 2)), i, solved, together, start
-      logical :: valid(size(values, 2))
+      logical :: valid(size(values, 2)), in_nodes(size(values, 2))
 
       solved = 0
+      in_nodes = .false.
       do i = 1, size(values, 2)
          call set_varied_keys(scene, plan%positions, values(:, i))
          valid(i) = is_valid_scene(scene, plan%positions, values(:, i))
@@ -202,6 +207,10 @@ contains
             do i = 1, together
                call judge_scene_of(space%group, i, resolved(group(i)), needed, space%stands(i), space%agree(i), space%judged)
                call record_row(scene, first + int(group(i) - 1, int64), values(:, group(i)), space%judged, rows(:, group(i)))
+               if (scene%film%automatic) then
+                  reason = reason_for_nodes(space%judged, choices(group(i))%impact_limit)
+                  in_nodes(group(i)) = reason%code > 0
+               end if
                if (needed(needs_starts)) found(group(i)) = &
                   motion_from_rest(resolved(group(i))%problem, requests(group(i))%samples_per_period, i, space%group)
             end do
@@ -217,11 +226,49 @@ contains
             call record_motions(scene, space%judged, rows(:, order(i)))
          end do
       end if
+      do i = 1, size(values, 2)
+         if (.not. in_nodes(i)) cycle
+         call solve_row_in_nodes(scene, plan, values(:, i), first + int(i - 1, int64), needed, rows(:, i), error)
+         if (must_stop() .or. allocated(error)) return
+      end do
       call note_ending(resolved_scene_t(), ending_t(status=status_invalid), space%judged)
       do i = solved + 1, size(values, 2)
          call record_row(scene, first + int(order(i) - 1, int64), values(:, order(i)), space%judged, rows(:, order(i)))
       end do
    end subroutine solve_batch
+
+   !> Solve a row again in nodes of pressure, as a single scene is. Where nodes stop, and where a motion does not start from rest, the
+   !> row stays that of the closure.
+   subroutine solve_row_in_nodes(scene, plan, values, number, needed, row, error)
+      !> Base scene; its varied keys are changed
+      type(scene_t), intent(inout) :: scene
+      !> The plan, values of the varied keys, and number of the scene
+      type(sample_plan_t), intent(in) :: plan
+      real(dp), intent(in) :: values(:)
+      integer(int64), intent(in) :: number
+      !> What the columns need
+      logical, intent(in) :: needed(:)
+      !> By the closure, and then in nodes
+      real(dp), intent(inout) :: row(:)
+      !> Set if there is no memory for the samples of the scene
+      type(error_t), allocatable, intent(out) :: error
+      type(scene_t) :: single
+      type(judged_scene_t) :: judged
+
+      call set_varied_keys(scene, plan%positions, values)
+      if (scene%film%initial_film > 0.0_dp .or. abs(scene%film%initial_velocity) > 0.0_dp) return
+      single = scene_in_nodes(scene)
+      single%solver%kept_per_period = scene%campaign%samples_per_period
+      single%output%series = .false.
+      single%spectrum%verify = needed(needs_verification)
+      call solve_in_nodes_alone(single, judged, error)
+      if (must_stop() .or. allocated(error)) return
+      if (nodes_stopped(judged%status)) then
+         call record_number(scene, quantity_film_model, film_model_stopped, row)
+      else
+         call record_row(scene, number, values, judged, row)
+      end if
+   end subroutine solve_row_in_nodes
 
    !> Motions of scenes from other starts than rest, and from their neighbours.
    subroutine find_motions(scene, plan, first, resolved, choices, requests, with_verdicts, order, space, found, error)
@@ -407,6 +454,7 @@ contains
       judged%periods = ending%periods
       judged%repeats_after = ending%orbit
       judged%orbit = periodic_orbit_t()
+      judged%nodes_stopped = .false.
    end subroutine note_ending
 
    !> What is known of a scene of a group.

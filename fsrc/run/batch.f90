@@ -1,5 +1,6 @@
 !> All scenes of a call: everything is checked before anything runs.
 module batch
+   use automatic_model, only: choose_model
    use, intrinsic :: iso_fortran_env, only: error_unit
    use command_line, only: command_t
    use engine, only: checkpoint_t
@@ -345,8 +346,12 @@ contains
       !> Set if its files are of another scene
       type(error_t), allocatable, intent(out) :: error
       type(checkpoint_t) :: state
+      type(scene_t) :: chosen
 
-      if (scene%task == task_motion) then
+      if (scene%film%automatic .and. scene%task == task_motion) then
+         call choose_model(scene, chosen, error)
+         if (.not. allocated(error)) call load_state(chosen, state, error)
+      else if (scene%task == task_motion) then
          call load_state(scene, state, error)
       else
          call check_earlier_files(scene, error)

@@ -35,7 +35,8 @@ module judged_scene
       quantity_floquet_multipliers, quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, &
       quantity_harmonic_errors, quantity_harmonics, quantity_irregular_fraction, quantity_iterations_per_step, &
       quantity_irregular_fraction_is_bound, quantity_lyapunov_exponent, &
-      quantity_law_contradicted, quantity_closure_range, quantity_harmonic_count, quantity_harmonic_count_is_bound, &
+      quantity_law_contradicted, quantity_closure_range, quantity_film_model, quantity_harmonic_count, &
+      quantity_harmonic_count_is_bound, &
       quantity_harmonics_by_integrals, &
       quantity_load_maximum, quantity_load_minimum, &
       quantity_loudest_acceleration_rms, quantity_loudest_class, &
@@ -67,6 +68,8 @@ module judged_scene
       type(resolved_scene_t) :: resolved
       !> How it is followed where its films are solved in nodes
       type(nodal_choice_t) :: nodal
+      !> Whether it is told by the closure because films in nodes stopped
+      logical :: nodes_stopped = .false.
       !> Status of scene_status, when the motion got it [s] and its film there [m], and whether there is a window that was judged
       integer :: status = status_complete
       real(dp) :: time = 0.0_dp, film = 0.0_dp
@@ -99,6 +102,9 @@ module judged_scene
 
    !> Change of the largest pressure by twice as many nodes up to which it counts as resolved [-]
    real(dp), parameter :: resolved_pressure = 0.02_dp
+
+   !> Codes of film_model
+   real(dp), parameter, public :: film_model_closure = 1.0_dp, film_model_nodes = 2.0_dp, film_model_stopped = 3.0_dp
 
    public :: quantity_value, quantity_list, largest_load
 
@@ -287,6 +293,9 @@ contains
             value = real(regime%regime, dp)
          case (quantity_law_contradicted)
             value = flag(regime%law_contradicted)
+         case (quantity_film_model)
+            if (problem%contact%film%bends) value = merge(film_model_stopped, film_model_closure, judged%nodes_stopped)
+            if (problem%contact%film%in_nodes) value = film_model_nodes
          case (quantity_closure_range)
             if (problem%contact%film%bends .and. .not. problem%contact%film%in_nodes) &
                value = real(closure_range(problem%contact%film, largest_load(judged), regime%pressure_maximum), dp)

@@ -1,5 +1,6 @@
 !> One scene from input to files: resolve, solve, judge, record.
 module run_scene
+   use automatic_model, only: choose_model
    use clock, only: wall_seconds
    use controlled_engine, only: solve_controlled
    use engine, only: checkpoint_t, ending_t
@@ -52,6 +53,31 @@ contains
       integer, intent(out) :: status
       !> Set if a file could not be written
       type(error_t), allocatable, intent(out) :: error
+      type(scene_t) :: chosen
+
+      if (.not. scene%film%automatic) then
+         call run_by_its_model(scene, quiet, carry_on, judged, status, error)
+         return
+      end if
+      status = status_not_written
+      call choose_model(scene, chosen, error)
+      if (.not. allocated(error)) call run_by_its_model(chosen, quiet, carry_on, judged, status, error)
+   end subroutine run_one_scene
+
+   !> Run a scene whose model of the film is known.
+   subroutine run_by_its_model(scene, quiet, carry_on, judged, status, error)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Nothing to the terminal
+      logical, intent(in) :: quiet
+      !> Take up the state of an earlier run, if there is one
+      logical, intent(in) :: carry_on
+      !> The result
+      type(judged_scene_t), intent(out) :: judged
+      !> Status of scene_status
+      integer, intent(out) :: status
+      !> Set if a file could not be written
+      type(error_t), allocatable, intent(out) :: error
       type(ending_t) :: ending
       type(window_record_t) :: record
       type(sample_recorder_t) :: recorder
@@ -66,6 +92,7 @@ contains
       started = wall_seconds()
       solve_seconds = 0.0_dp
       judged%resolved = resolve(scene)
+      judged%nodes_stopped = scene%film%nodes_stopped
       if (carry_on) call load_state(scene, state, error)
       if (carry_on .and. caught_signal() /= 0) then
          ! The files of the earlier run were not verified to their end; they stay as they are.
@@ -126,7 +153,7 @@ contains
       status = judged%status
       if (allocated(error)) call log%line('  '//error%message)
       call log%close()
-   end subroutine run_one_scene
+   end subroutine run_by_its_model
 
    !> Series, state, table of motions and profiles.
    pure function result_files(scene) result(paths)

@@ -312,6 +312,7 @@ contains
       do part = part_window, part_cost
          call report_part(log, judged, part)
       end do
+      if (scene%film%told /= '') call log%line('  the film is solved '//trim(scene%film%told))
       if (scene%output%series) call log%line('  '//result_path(scene))
       if (has_motions_table(scene)) call log%line('  '//motions_path(scene))
       if (scene%output%profiles) call log%line('  '//profiles_path(scene))

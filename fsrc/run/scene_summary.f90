@@ -57,6 +57,7 @@ contains
       end do
       call summary%add('law', choice_word('film', 'law', scene%film%law))
       call summary%add('model', choice_word('film', 'model', scene%film%model))
+      if (scene%film%told /= '') call summary%add('model_text', trim(scene%film%told))
       call summary%add('speed_used', judged%resolved%problem%contact%film%speed)
       call summary%add('speed_meaning', speed_meaning(scene))
       call add_derived(summary, scene)

@@ -181,9 +181,10 @@ module key_table
             'Film law of the motion: iso-viscous (35), idle rattle; piezo-viscous (37), creep rattle; elastohydrodynamic, '// &
             'where pressure bends the flanks.', &
             example='iso-viscous', with_gear='elastohydrodynamic'), &
-      key_t('film', 'model', text_kind, '', 'published', any_number, 'published reynolds numerical closure resolved', '', &
-            'Whose film: published, the paper''s with U as u; reynolds, exact with u = 2U; of the elastohydrodynamic law '// &
-            'closure, its default, or resolved, in nodes. Film task: absent means both of the first, numerical adds finite '// &
+      key_t('film', 'model', text_kind, '', 'published', any_number, 'published reynolds numerical closure resolved automatic', &
+            '', &
+            'published, the paper''s with U as u; reynolds, exact with u = 2U; of the elastohydrodynamic law closure, its '// &
+            'default, resolved, in nodes, automatic, either. Film task: absent means the first two, numerical adds finite '// &
             'volumes.', &
             with_gear='reynolds'), &
       key_t('film', 'rupture', text_kind, '', 'half-pi', any_number, 'half-pi solved', &
@@ -191,7 +192,8 @@ module key_table
             'Rupture angle x_e in the squeeze term of (24): half-pi as in (35), or solved from (18) at every evaluation.'), &
       key_t('film', 'rupture_solver', text_kind, '', 'fast', any_number, 'fast successive', 'film.rupture=solved', &
             'Root finder of (18): fast takes a table good to rounding, successive the paper''s substitution; same root.'), &
-      key_t('film', 'nodes', integer_kind, '-', '32', range_t(24.0_dp, .false., 128.0_dp, .false.), '', 'film.model=resolved', &
+      key_t('film', 'nodes', integer_kind, '-', '32', range_t(24.0_dp, .false., 128.0_dp, .false.), '', &
+            'film.model=resolved|automatic', &
             'Nodes of pressure across a contact: 24, 32, 48, 64 or 128.'), &
       key_t('film', 'initial_film', real_kind, 'm', '', positive, '', of_motions, &
             'Film at t = 0; absent: the steady film under Q + m g.', &

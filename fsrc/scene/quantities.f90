@@ -58,7 +58,7 @@ module quantities
          quantity_floquet_modulus, quantity_pressure_maximum, quantity_pressure_error, quantity_pressure_resolved, &
          quantity_film_at_pressure_maximum, quantity_central_film, quantity_alpha_p_maximum, quantity_deflection, &
          quantity_deflection_share, quantity_stiffness_matters, quantity_film_regime, quantity_law_contradicted, &
-         quantity_closure_range, &
+         quantity_closure_range, quantity_film_model, &
          quantity_periods_solved, quantity_evaluations, quantity_steps, quantity_steps_cut, quantity_iterations_per_step
    end enum
 
@@ -389,6 +389,9 @@ module quantities
       quantity_t(quantity_closure_range, 'closure_range', '-', a_code, part_regime, needs_closure_range, 'summary campaign', &
          'Whether loads, oil and pressures of an elastohydrodynamic film stay within those that its closure was fitted to.', &
          'within|outside'), &
+      quantity_t(quantity_film_model, 'film_model', '-', a_code, part_regime, needs_nothing, 'summary campaign', &
+         'Which model of the elastohydrodynamic film tells of the motion; recorded of every row of film.model = automatic.', &
+         'closure|resolved|closure, as nodes stopped', first_code=1), &
       quantity_t(quantity_periods_solved, 'periods_solved', '-', a_count, part_cost, needs_nothing, 'summary sweep campaign', &
          'Periods of the force that were solved.'), &
       quantity_t(quantity_evaluations, 'evaluations', '-', a_count, part_cost, needs_nothing, 'summary', &
@@ -462,6 +465,13 @@ contains
       needed(needs_coast_film_range) = any(needed([needs_film_range, needs_coast_film_range]))
       needed(needs_coast_load_range) = any(needed([needs_coast_load_range, needs_deflection, needs_closure_range]))
    end function needs_of
+
+   !> What has to be found to choose between closure and nodes of pressure: range of the closure, and verdict.
+   pure function needs_of_choice() result(needed)
+      logical :: needed(need_count)
+
+      needed = needs_of([quantity_closure_range, quantity_verdict])
+   end function needs_of_choice
 
    !> Whether some quantities ask for the scene to be solved again, tighter.
    pure logical function asks_to_verify(quantities)

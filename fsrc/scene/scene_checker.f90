@@ -326,17 +326,17 @@ contains
    subroutine check_film_model(input, faults)
       type(scene_input_t), intent(in) :: input
       type(fault_list_t), intent(inout) :: faults
-      character(*), parameter :: law = "law = 'elastohydrodynamic'"
+      character(*), parameter :: law = "law = 'elastohydrodynamic'", bent(3) = [character(9) :: 'closure', 'resolved', 'automatic']
       logical :: numerical, elastic
 
       numerical = input%word('film', 'model') == 'numerical'
       elastic = input%word('scene', 'task') /= 'film' .and. input%word('film', 'law') == 'elastohydrodynamic'
       if (numerical .and. input%word('scene', 'task') /= 'film') &
          call input%add_fault('film', 'model', "'numerical' is for task = 'film' only", faults)
-      if (elastic .and. .not. (numerical .or. input%word('film', 'model') == 'closure' &
-                               .or. input%word('film', 'model') == 'resolved')) &
-         call input%add_fault('film', 'model', "the model of "//law//" is 'closure' or 'resolved'", faults)
+      if (elastic .and. .not. (numerical .or. any(input%word('film', 'model') == bent))) &
+         call input%add_fault('film', 'model', "the model of "//law//" is 'closure', 'resolved' or 'automatic'", faults)
       if (input%word('film', 'model') == 'resolved') call check_resolved(input, elastic, faults)
+      if (input%word('film', 'model') == 'automatic') call check_automatic(input, elastic, faults)
       if (input%word('film', 'model') == 'closure' .and. .not. elastic) &
          call input%add_fault('film', 'model', "'closure' needs "//law, faults)
       if (input%word('lubricant', 'viscosity_law') == 'roelands' .and. .not. (numerical .or. elastic)) &
@@ -358,7 +358,6 @@ contains
       logical, intent(in) :: elastic
       type(fault_list_t), intent(inout) :: faults
       real(dp), parameter :: finest = 1.0e-5_dp
-      integer, parameter :: choices(5) = [24, 32, 48, 64, 128]
 
       if (.not. elastic) then
          call input%add_fault('film', 'model', "'resolved' needs law = 'elastohydrodynamic'", faults)
@@ -366,19 +365,51 @@ contains
       end if
       if (input%word('scene', 'task') /= 'motion') &
          call input%add_fault('film', 'model', "'resolved' is for task = 'motion'; take 'closure' for many scenes", faults)
-      if (.not. input%is_faulty('film', 'nodes') .and. .not. any(input%count('film', 'nodes') == choices)) &
-         call input%add_fault('film', 'nodes', 'not a number of nodes; allowed: 24, 32, 48, 64, 128', faults)
       if (.not. input%is_faulty('solver', 'accuracy') .and. input%number('solver', 'accuracy') < finest) &
          call input%add_fault('solver', 'accuracy', "too fine for model = 'resolved'; allowed: 1e-5 to 1e-2", faults)
-      if (input%is_given('film', 'initial_film')) &
-         call input%add_fault('film', 'initial_film', "model = 'resolved' starts from rest; leave it out", faults)
-      if (input%is_given('film', 'initial_velocity')) &
-         call input%add_fault('film', 'initial_velocity', "model = 'resolved' starts from rest; leave it out", faults)
+      call check_nodes(input, 'resolved', faults)
       if (input%is_given('solver', 'starts') .and. input%count('solver', 'starts') > 1) &
          call input%add_fault('solver', 'starts', "model = 'resolved' follows the motion from rest alone; leave it out, or "// &
                               "look for others with model = 'closure'", faults)
       call check_profiles(input, faults)
    end subroutine check_resolved
+
+   !> Films in nodes of pressure where the closure does not do are those of motions from rest, single ones or rows of campaigns.
+   subroutine check_automatic(input, elastic, faults)
+      type(scene_input_t), intent(in) :: input
+      !> Whether the law is the elastohydrodynamic one
+      logical, intent(in) :: elastic
+      type(fault_list_t), intent(inout) :: faults
+
+      if (.not. elastic) then
+         call input%add_fault('film', 'model', "'automatic' needs law = 'elastohydrodynamic'", faults)
+         return
+      end if
+      if (input%word('scene', 'task') /= 'motion' .and. input%word('scene', 'task') /= 'campaign') &
+         call input%add_fault('film', 'model', "'automatic' is for task = 'motion' or 'campaign'; sweeps and thresholds follow "// &
+                              "motions from one value to the next, which films in nodes do not; take 'closure'", faults)
+      if (input%word('solver', 'method') /= 'taylor') &
+         call input%add_fault('film', 'model', "'automatic' needs the taylor method", faults)
+      call check_nodes(input, 'automatic', faults)
+   end subroutine check_automatic
+
+   !> The number of nodes is one of the list, and films in nodes start from rest.
+   subroutine check_nodes(input, model, faults)
+      type(scene_input_t), intent(in) :: input
+      !> Its word
+      character(*), intent(in) :: model
+      type(fault_list_t), intent(inout) :: faults
+      integer, parameter :: choices(5) = [24, 32, 48, 64, 128]
+      character(*), parameter :: starts(2) = [character(16) :: 'initial_film', 'initial_velocity']
+      integer :: i
+
+      if (.not. input%is_faulty('film', 'nodes') .and. .not. any(input%count('film', 'nodes') == choices)) &
+         call input%add_fault('film', 'nodes', 'not a number of nodes; allowed: 24, 32, 48, 64, 128', faults)
+      do i = 1, size(starts)
+         if (input%is_given('film', trim(starts(i)))) &
+            call input%add_fault('film', trim(starts(i)), "model = '"//model//"' starts from rest; leave it out", faults)
+      end do
+   end subroutine check_nodes
 
    !> When profiles are written is told once, in the order of time.
    subroutine check_profiles(input, faults)

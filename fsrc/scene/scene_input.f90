@@ -7,7 +7,7 @@ module scene_input
    use key_table, only: find_key, keys, known_group, nearest_group, nearest_key
    use kinds, only: dp
    use namelist_text, only: assignment_t, repeated_group
-   use scene_types, only: numbers_t, scene_t, set_number
+   use scene_types, only: model_automatic, model_closure, numbers_t, scene_t, set_number
    use text, only: integer_text
    use word_list, only: split_words, word_position, word_t
    implicit none(type, external)
@@ -135,6 +135,8 @@ contains
 
       scene%film%law = self%choice('film', 'law')
       scene%film%model = self%choice('film', 'model')
+      scene%film%automatic = scene%film%model == model_automatic
+      if (scene%film%automatic) scene%film%model = model_closure
       scene%lubricant%viscosity_law = self%choice('lubricant', 'viscosity_law')
       scene%contact%flattening_included = self%flag('contact', 'flattening_included')
    end subroutine put_laws

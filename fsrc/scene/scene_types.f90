@@ -24,7 +24,7 @@ module scene_types
    character(*), parameter, public :: words_of_laws = 'iso-viscous piezo-viscous elastohydrodynamic'
    !> Whose formulas.
    integer, parameter, public :: model_published = 1, model_reynolds = 2, model_numerical = 3, model_closure = 4, &
-                                 model_resolved = 5
+                                 model_resolved = 5, model_automatic = 6
    !> Rupture angle in the squeeze term of (24).
    integer, parameter, public :: rupture_half_pi = 1, rupture_solved = 2
    !> Root finder of (18).
@@ -230,6 +230,10 @@ module scene_types
    type, public :: film_choice_t
       integer :: law = law_iso_viscous
       integer :: model = model_published
+      !> Whether the closure, which the model is then, or nodes of pressure are chosen by what the closure tells; once it is chosen,
+      !> why, and whether it is the closure because nodes stopped
+      logical :: automatic = .false., nodes_stopped = .false.
+      character(400) :: told = ''
       integer :: rupture = rupture_half_pi
       integer :: rupture_solver = rupture_solver_fast
       !> Nodes of pressure across a contact

@@ -4,7 +4,8 @@ module task_reader
    use key_table, only: find_swept_key, keys
    use keys_in_use, only: in_use
    use kinds, only: dp
-   use quantities, only: class_words, least_verdict_with_impacts, quantity_code, quantity_rattle_class, quantity_verdict
+   use quantities, only: class_words, least_verdict_with_impacts, quantity_code, quantity_film_model, quantity_rattle_class, &
+                         quantity_verdict
    use scene_input, only: scene_input_t
    use scene_types, only: campaign_choice_t, film_points_t, model_numerical, model_published, sweep_t, threshold_t
    use word_list, only: split_words, word_position, word_t
@@ -99,6 +100,9 @@ contains
       do i = 1, size(recorded)
          campaign%record(i) = quantity_code(recorded(i)%text)
       end do
+      ! Which model tells of a row is told.
+      if (input%word('film', 'model') == 'automatic' .and. .not. any(campaign%record == quantity_film_model)) &
+         campaign%record = [campaign%record, quantity_film_model]
       campaign%samples_per_period = input%count('campaign', 'samples_per_period')
       campaign%neighbours = input%flag('campaign', 'neighbours')
       campaign%allow_invalid = input%flag('campaign', 'allow_invalid')

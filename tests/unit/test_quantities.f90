@@ -20,6 +20,7 @@ module test_quantities
                          quantity_drag_bearing, quantity_drag_churning, quantity_drag_synchroniser, quantity_drag_torque, &
                          quantity_inertia_ratio, &
                          quantity_central_film, quantity_closure_range, quantity_film_at_pressure_maximum, &
+                         quantity_film_model, &
                          quantity_pressure_error, quantity_pressure_resolved, &
                          quantity_impacts_drive, quantity_verified, quantity_gear_position_maximum, &
                          quantity_gear_position_minimum, quantity_periods_solved, quantity_status, quantity_table, &
@@ -101,7 +102,7 @@ contains
                             quantity_inertia_ratio, quantity_gear_acceleration_rms, quantity_gear_acceleration_maximum])) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of no gear')
          else if (any(i == [quantity_pressure_error, quantity_pressure_resolved, quantity_film_at_pressure_maximum, &
-                            quantity_central_film])) then
+                            quantity_central_film, quantity_film_model])) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of films without nodes')
          else if (i == quantity_closure_range) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of rigid flanks')

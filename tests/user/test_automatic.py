@@ -1,0 +1,110 @@
+"""film.model = automatic: by the closure, in nodes where that does not do, and told which."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from outcomes import summary_of
+
+import rattle as package
+from rattle.codes import word
+
+GEAR = """&contact radius = 9.1e-3, length = 0.019, backlash = 110.0e-6, stiffness = 2.4e8 /
+&lubricant viscosity = 0.02, pressure_viscosity = 1.6e-8, viscosity_law = 'roelands' /
+&kinematics rolling_speed = 2.8 /
+&load mass = 0.62, steady_force = 2.0, gravity = 0.0, frequency = 30.0, force_amplitude = 6.0 /
+&film law = 'elastohydrodynamic', model = 'automatic' /
+&solver until = 'steady', periods = 40, starts = 1, samples_per_period = 256 /
+&spectrum periods = 2 /
+"""
+FORCES = (0.5, 2.0, 6.0, 20.0, 60.0)
+RECORD = (
+    *("film_minimum", "acceleration_maximum", "acceleration_minimum", "load_maximum", "coast_load_maximum"),
+    *("verdict", "impacts_per_period_drive", "film_force_rms", "harmonic_distortion", "rattle_class"),
+    *("verified", "verdict_verified", "pressure_maximum", "closure_range"),
+)
+CAMPAIGN = (
+    "&scene name = 'rows', task = 'campaign' /\n"
+    + GEAR
+    + "&campaign vary = 'load.force_amplitude', values(:, 1) = "
+    + ", ".join(map(str, FORCES))
+    + ", neighbours = .false., record = "
+    + ", ".join(f"'{name}'" for name in RECORD)
+    + " /\n"
+)
+
+
+@pytest.fixture(scope="module")
+def rows(run, tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("automatic")
+    (folder / "rows.nml").write_text(CAMPAIGN)
+    ended = run("--output", "one", "--threads", "1", "rows.nml", cwd=folder)
+    assert ended.returncode == 0, ended.stderr
+    return folder
+
+
+def test_rows_are_single_scenes_of_the_model_they_tell(rows: Path) -> None:
+    table = package.read(rows / "one/rows.rattle")
+    models = ["", "closure", "resolved"]
+    told = [models[round(code)] for code in table["film_model"]]
+    assert set(told) == {"closure", "resolved"}
+    for place, (force, model) in enumerate(zip(FORCES, told, strict=True)):
+        settings = {"load.force_amplitude": force, "film.model": model}
+        alone = package.run(GEAR, set=settings).summary
+        for name in RECORD:
+            if name not in alone:  # a single scene in nodes has no closure to be within its range
+                continue
+            row = table[name][place]
+            told_row = word(name, row) if isinstance(alone[name], str) else row
+            assert told_row == alone[name], (force, model, name)
+        assert (table["verified"][place] == 1) == (alone["verification"] == "verified")
+        # A single scene chooses as its row has.
+        chosen = package.run(GEAR, set={"load.force_amplitude": force}).summary
+        assert chosen["model"] == model and chosen["film_model"] == model and chosen["model_text"]
+        assert chosen["acceleration_maximum"] == alone["acceleration_maximum"]
+
+
+def test_threads_and_parts_leave_the_same_bytes(rows: Path, run) -> None:
+    whole = (rows / "one/rows.rattle").read_bytes()
+    ended = run("--output", "two", "--threads", "2", "rows.nml", cwd=rows)
+    assert ended.returncode == 0 and (rows / "two/rows.rattle").read_bytes() == whole
+    columns = package.read(rows / "one/rows.rattle")
+    for part in (1, 2):
+        parts = ("--set", "campaign.parts=2", "--set", f"campaign.part={part}")
+        ended = run("--output", "parts", *parts, "rows.nml", cwd=rows)
+        assert ended.returncode == 0, ended.stderr
+    found = [package.read(path) for path in sorted((rows / "parts").glob("rows.part-*.rattle"))]
+    for name in columns.names:
+        joined = np.concatenate([np.array(part[name]) for part in found])
+        np.testing.assert_array_equal(joined, np.array(columns[name]))
+
+
+def test_a_scene_says_why(rows: Path, run) -> None:
+    (rows / "single.nml").write_text(GEAR)
+    for force, words in ((60.0, "fitted to films up to M = 2"), (2.0, "")):
+        folder = f"why_{force:g}"
+        ended = run("--output", folder, "--set", f"load.force_amplitude={force}", "single.nml", cwd=rows)
+        assert ended.returncode == 0, ended.stderr
+        told = summary_of(rows / folder / "single.summary.nml")
+        assert words in told["model_text"] and told["model_text"][:40] in ended.stdout
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    (
+        ("task = 'campaign'", "task = 'threshold'", "'automatic' is for task = 'motion' or 'campaign'"),
+        (
+            "'elastohydrodynamic', model",
+            "'iso-viscous', model",
+            "'automatic' needs law = 'elastohydrodynamic'",
+        ),
+        ("model = 'automatic'", "model = 'automatic', nodes = 40", "not a number of nodes"),
+        ("model = 'automatic'", "model = 'automatic', initial_film = 1e-6", "starts from rest"),
+    ),
+)
+def test_what_makes_no_sense_is_refused(old: str, new: str, message: str, run, tmp_path: Path) -> None:
+    (tmp_path / "rows.nml").write_text(CAMPAIGN.replace(old, new))
+    ended = run("rows.nml", cwd=tmp_path)
+    assert ended.returncode == 2 and message in ended.stderr, ended.stderr
