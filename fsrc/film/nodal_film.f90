@@ -12,7 +12,7 @@ module nodal_film
    use elastohydrodynamic_closure, only: closure_t, thicken
    use film_pressure, only: pressure_group
    use kinds, only: dp
-   use linear_equations, only: solve_linear
+   use linear_equations, only: eliminate
    use reynolds_iso_viscous, only: rupture_tangent_fast
    use scene_types, only: viscosity_barus, viscosity_constant, viscosity_roelands
    implicit none(type, external)
@@ -326,7 +326,7 @@ contains
       !> Nodes under pressure, before and after
       logical, intent(inout) :: active(:)
       type(nodal_correction_t), intent(inout) :: correction
-      real(dp) :: matrix(grid%nodes, grid%nodes), right(grid%nodes, 2)
+      real(dp) :: table(grid%nodes*(grid%nodes + 2)), right(grid%nodes, 2)
       integer :: places(grid%nodes), m, i, k
       logical :: is_active, solved
 
@@ -352,13 +352,15 @@ contains
          right(:m, 1) = right(:m, 1) + balance%by_pressure(places(:m), k)*pressures(k)
       end do
       do k = 1, m
-         matrix(:m, k) = balance%by_pressure(places(:m), places(k))
+         table((k - 1)*m + 1:k*m) = balance%by_pressure(places(:m), places(k))
       end do
-      call solve_linear(matrix(:m, :m), right(:m, :), solved)
+      table(m*m + 1:m*m + m) = right(:m, 1)
+      table(m*m + m + 1:m*m + 2*m) = right(:m, 2)
+      call eliminate(m, m + 2, table, solved)
       correction%exists = solved
       if (.not. solved) return
-      correction%own(places(:m)) = right(:m, 1)
-      correction%with_gap(places(:m)) = right(:m, 2)
+      correction%own(places(:m)) = table(m*m + 1:m*m + m)
+      correction%with_gap(places(:m)) = table(m*m + m + 1:m*m + 2*m)
       correction%load = dot_product(grid%load, pressures + correction%own)
       correction%load_by_gap = dot_product(grid%load, correction%with_gap)
    end subroutine correct_pressures
@@ -375,6 +377,7 @@ contains
 
       volumes = gap*grid%length + grid%bowl
       do k = 1, grid%nodes
+         if (.not. abs(pressures(k)) > 0.0_dp) cycle
          volumes = volumes + grid%volume(:, k)*pressures(k)
       end do
    end function volumes_of

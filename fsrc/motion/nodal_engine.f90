@@ -23,8 +23,8 @@ module nodal_engine
 
    !> Newton's passes for the gear at rest: of them all, and before nodes change one by one
    integer, parameter :: most_rest_passes = 120, free_rest_passes = 80
-   !> Steps of a period after which a motion is given up
-   integer(int64), parameter :: most_steps = 2000000_int64
+   !> Steps of a period after which a motion is given up; it takes 400 to 800, and 2000 at the finest accuracy
+   integer(int64), parameter :: most_steps = 50000_int64
 
    !> States at the ends of periods that are kept, and share of the tolerance of a step up to which a motion repeats
    integer, parameter :: kept_periods = 4*longest_orbit + 1
