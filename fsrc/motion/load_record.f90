@@ -37,9 +37,11 @@ contains
    pure subroutine start_loads(problem, record)
       type(problem_t), intent(in) :: problem
       type(load_record_t), intent(inout) :: record
+      type(load_record_t) :: blank
       real(dp) :: largest_force
 
-      record = load_record_t(impact_limit=record%impact_limit)
+      blank%impact_limit = record%impact_limit
+      record = blank
       largest_force = largest_applied_force(problem)
       ! Without a force there is nothing that a load could exceed.
       if (largest_force >= least_static_load) then

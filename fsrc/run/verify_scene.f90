@@ -101,7 +101,8 @@ contains
          call look_behind(scene, resolved%problem, accuracy, resolved%noise_floor_at(accuracy), tight, ending, unclosed, error)
          if (allocated(error)) return
       end if
-      call compare_windows(films_of(resolved%problem, window%states), films_of(resolved%problem, tight%states), extremes, &
+      call compare_windows(films_of(resolved%problem, window%states), &
+                           films_of(resolved%problem, tight%states), extremes, &
                            extremes_of_record(tight%record), verdict, tight_verdict, unclosed, scene%spectrum, &
                            scene%spectrum%verification_tolerance, accuracy, resolved%noise_floor_at(accuracy), verification)
       verification%impacts = agreement_of(resolved%problem, extremes, impacts, extremes_of_record(tight%record), &
