@@ -38,6 +38,7 @@ KNOW_FLANKS = {
         "motion/many_motions",
         "motion/nodal_engine",
         "motion/nodal_profiles",
+        "motion/nodal_state",
         "motion/nodal_step",
         "motion/taylor_iso_viscous",
         "motion/taylor_piezo_viscous",

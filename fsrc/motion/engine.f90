@@ -97,6 +97,8 @@ module engine
       integer :: orbit = 0
       !> Cost so far
       type(motion_count_t) :: count = motion_count_t()
+      !> Of films in nodes: their histories, as of module nodal_state
+      real(dp), allocatable :: nodal(:)
    end type checkpoint_t
 
    !> Where a motion hands its samples, whole periods at a time. The motion never knows what becomes of them.

@@ -3,7 +3,7 @@
 module nodal_engine
    use carried_loads, only: films_of, initial_state
    use clock, only: wall_seconds
-   use engine, only: ending_t, motion_watcher_t, motion_state_t, request_t, sample_sink_t, status_of_stop
+   use engine, only: checkpoint_t, ending_t, motion_watcher_t, motion_state_t, request_t, sample_sink_t, status_of_stop
    use errors, only: error_t
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
@@ -11,6 +11,7 @@ module nodal_engine
    use nodal_flank, only: accept_step, correct_flank, finish_step, is_bent, kept_times, nodal_contact_t, respond, rigid_gap, &
                           share_that_leaves_a_film, step_weights_t, stiffen
    use nodal_profiles, only: nodal_profiles_t, note_profiles, start_profiles
+   use nodal_state, only: pack_motion, unpack_motion
    use nodal_step, only: first_step, gear_t, motion_t, nodal_choice_t, set_up, state_of, take_step
    use problem, only: flank_count, of_drive_compression, of_film, of_velocity, problem_t, state_size, static_load
    use repetition, only: longest_orbit
@@ -35,7 +36,7 @@ module nodal_engine
 contains
 
    !> Solve the motion of a problem from rest.
-   subroutine solve_in_nodes(problem, choice, request, sink, watcher, ending, record, error, profiles)
+   subroutine solve_in_nodes(problem, choice, request, sink, watcher, checkpoint, ending, record, error, profiles)
       !> What moves
       type(problem_t), intent(in) :: problem
       type(nodal_choice_t), intent(in) :: choice
@@ -45,6 +46,8 @@ contains
       class(sample_sink_t), intent(inout) :: sink
       !> Told of progress
       class(motion_watcher_t), intent(inout) :: watcher
+      !> State to carry on from, and then the one from which the run can be extended; none of a run until steady
+      type(checkpoint_t), intent(inout) :: checkpoint
       !> How it ended
       type(ending_t), intent(out) :: ending
       !> What is asked for of the window, and then what its steps tell
@@ -68,7 +71,14 @@ contains
       fastest = tiny(1.0_dp)
       n = request%samples_per_period
       call set_up(problem, choice, contact, gear)
-      call rest_of_gear(problem, contact, gear, motion, found)
+      found = checkpoint%periods > 0
+      if (found) then
+         call unpack_motion(problem, choice%nodes, checkpoint%nodal, motion)
+         ending%count = checkpoint%count
+         ending%periods = checkpoint%periods
+      else
+         call rest_of_gear(problem, contact, gear, motion, found)
+      end if
       allocate (ending%numbers(state_size(problem)), source=initial_state(problem))
       ending%status = merge(status_complete, status_film_cycles, found)
       if (.not. found) return
@@ -76,21 +86,22 @@ contains
       call force_of_period(problem%force, force)
       allocate (first(1, state_size(problem)))
       first(1, :) = motion%states(1, :)
-      call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], first, &
-                     [acceleration(problem, gear, motion, force_at(problem%force, 0.0_dp), 1)], error)
+      if (checkpoint%periods == 0) &
+         call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], first, &
+                        [acceleration(problem, gear, motion, force_at(problem%force, 0.0_dp), 1)], error)
       if (allocated(error)) return
       last = request%periods
       from = last - request%sampled_periods
       searching = request%until_steady
       call sink%begin_window(int(from, int64)*int(n, int64) + 1_int64, request%sampled_periods*n)
       if (present(profiles)) kept = profiles
-      if (from == 0) then
-         call start_record(state_now(motion, 0), record)
+      if (from == checkpoint%periods) then
+         call start_record(state_now(motion, from), record)
          call start_profiles(contact, kept)
       end if
       allocate (watched(state_size(problem), kept_periods), source=0.0_dp)
       watched(:, 1) = motion%states(1, :)
-      period = 0
+      period = checkpoint%periods
       do while (period < last)
          period = period + 1
          call solve_period(problem, contact, gear, force, period - from - 1, period == last, motion, nodes, record, kept, states, &
@@ -121,6 +132,9 @@ contains
                call sink%begin_window(int(from, int64)*int(n, int64) + 1_int64, ending%orbit*n)
             end if
          end if
+         if (period == from .and. .not. request%until_steady) &
+            checkpoint = checkpoint_t(periods=period, numbers=motion%states(1, :), carried_on=.true., count=ending%count, &
+                                      nodal=pack_motion(problem, choice%nodes, motion))
          if (period == from) then
             call start_record(state_now(motion, period), record)
             call start_profiles(contact, kept)

@@ -4,7 +4,7 @@ module nodal_scene
    use controlled_engine, only: solve_window
    use constants, only: pi
    use doubt, only: doubt_t, doubt_tighter_ending
-   use engine, only: ending_t, motion_watcher_t, request_t, sample_sink_t, start_of, unwatched_t
+   use engine, only: checkpoint_t, ending_t, motion_watcher_t, request_t, sample_sink_t, start_of, unwatched_t
    use errors, only: error_t
    use fine_window, only: window_t
    use finer_windows, only: integral_record
@@ -67,7 +67,8 @@ contains
       choice%bound = min(largest_bound, bound_factor*scene%solver%accuracy)
       by_closure = problem
       by_closure%contact%film%in_nodes = .false.
-      periods = min(closure_periods, scene%solver%periods)
+      ! As many of any run, so that one that is carried on has the same grid.
+      periods = closure_periods
       film = problem%initial_film
       load = largest_applied_force(problem)
       call solve_window(by_closure, start_of(by_closure), closure_accuracy, closure_samples, periods, periods, states, values, &
@@ -84,7 +85,7 @@ contains
    end subroutine choice_of
 
    !> Solve a scene.
-   subroutine solve_nodal_scene(scene, problem, choice, request, sink, watcher, ending, record, error, profiles)
+   subroutine solve_nodal_scene(scene, problem, choice, request, sink, watcher, ending, record, error, profiles, checkpoint)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> What moves
@@ -105,11 +106,16 @@ contains
       type(error_t), allocatable, intent(out) :: error
       !> What is asked for of pressures and films over the contact, and then those of the window
       type(nodal_profiles_t), intent(inout), optional :: profiles
+      !> State to carry on from, and then the one from which the run can be extended; absent: from rest
+      type(checkpoint_t), intent(inout), optional :: checkpoint
+      type(checkpoint_t) :: state
 
+      if (present(checkpoint)) state = checkpoint
       record = integral_record(scene%spectrum)
       record%wants = .true.
       record%loads%impact_limit = request%impact_limit
-      call solve_in_nodes(problem, choice, request, sink, watcher, ending, record, error, profiles)
+      call solve_in_nodes(problem, choice, request, sink, watcher, state, ending, record, error, profiles)
+      if (present(checkpoint)) checkpoint = state
    end subroutine solve_nodal_scene
 
    !> The window of a scene, solved finer.

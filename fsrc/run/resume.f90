@@ -11,13 +11,14 @@ module resume
    use file_system, only: file_state_t, state_of_path
    use kinds, only: dp, int64
    use output_place, only: motions_path, profiles_path, result_path, state_path
+   use nodal_state, only: size_of_motion
    use problem, only: problem_of, state_number_t, state_numbers
    use repetition, only: kept_states, orbit_watch_t
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
    use sample_recorder, only: series_rows
-   use scene_types, only: method_taylor, scene_t, until_steady
+   use scene_types, only: method_taylor, model_resolved, scene_t, until_steady
    use text, only: integer_text
    implicit none(type, external)
    private
@@ -56,9 +57,9 @@ contains
       real(dp), allocatable :: row(:, :)
 
       numbers = state_numbers(problem_of(scene))
-      call columns_of(numbers, names, units)
+      call columns_of(numbers, nodal_numbers(scene), names, units)
       allocate (row(size(names), 1))
-      row(:, 1) = row_of(state, size(numbers))
+      row(:, 1) = row_of(state, size(numbers), nodal_numbers(scene))
       call writer%open(state_path(scene), scene%resolved_input, names, units, 1_int64, .false., error)
       if (.not. allocated(error)) call writer%write_rows(row, error)
       if (.not. allocated(error)) call writer%close(error)
@@ -88,7 +89,7 @@ contains
          return
       end if
       numbers = state_numbers(problem_of(scene))
-      call columns_of(numbers, names, units)
+      call columns_of(numbers, nodal_numbers(scene), names, units)
       allocate (row(size(names), 1))
       call open_earlier(scene, state_path(scene), free_keys, reader, error)
       if (.not. allocated(error) .and. .not. equal_names(reader%names, names)) &
@@ -99,7 +100,7 @@ contains
       if (.not. allocated(error)) call check_earlier_result(scene, motions_path(scene), free_keys, error)
       if (.not. allocated(error)) call check_earlier_result(scene, profiles_path(scene), free_keys, error)
       if (allocated(error)) return
-      state = state_of(row(:, 1), size(numbers))
+      state = state_of(row(:, 1), size(numbers), nodal_numbers(scene))
       if (state%periods == 0) then
          call check_series(scene, error)
          return
@@ -164,17 +165,27 @@ contains
       end associate
    end function latest_start
 
+   !> Numbers of the histories of films in nodes, 0 where there are none.
+   pure integer function nodal_numbers(scene)
+      type(scene_t), intent(in) :: scene
+
+      nodal_numbers = 0
+      if (scene%film%model == model_resolved) nodal_numbers = size_of_motion(problem_of(scene), scene%film%nodes)
+   end function nodal_numbers
+
    !> Columns of a file of state.
-   pure subroutine columns_of(numbers, names, units)
+   pure subroutine columns_of(numbers, nodal, names, units)
       !> Of a state
       type(state_number_t), intent(in) :: numbers(:)
+      !> How many there are of films in nodes
+      integer, intent(in) :: nodal
       character(column_name_bytes), allocatable, intent(out) :: names(:)
       character(column_unit_bytes), allocatable, intent(out) :: units(:)
       integer :: place, age, i, n
 
       place = size(head_names)
       n = size(numbers)
-      allocate (names(place + n + (n + 1)*kept_states), units(place + n + (n + 1)*kept_states))
+      allocate (names(place + n + (n + 1)*kept_states + nodal), units(place + n + (n + 1)*kept_states + nodal))
       names(:place) = head_names
       units(:) = '-'
       units(:place) = head_units
@@ -190,6 +201,9 @@ contains
          names(place + n + 1) = 'watch_thinnest_'//integer_text(age)
          place = place + n + 1
       end do
+      do i = 1, nodal
+         names(place + i) = 'nodal_'//integer_text(i)
+      end do
    end subroutine columns_of
 
    !> Whether two lists of names are the same.
@@ -202,13 +216,14 @@ contains
    end function equal_names
 
    !> A state as a row; see `state_of`.
-   pure function row_of(state, numbers) result(row)
+   pure function row_of(state, numbers, nodal) result(row)
       !> One of 0 periods has no numbers yet
       type(checkpoint_t), intent(in) :: state
-      !> How many it has
+      !> How many it has, and how many of films in nodes
       integer, intent(in) :: numbers
+      integer, intent(in) :: nodal
       real(dp), allocatable :: row(:)
-      real(dp) :: values(numbers), watched(numbers + 1, kept_states)
+      real(dp) :: values(numbers), watched(numbers + 1, kept_states), histories(nodal)
 
       associate (watch => state%watch)
          values = 0.0_dp
@@ -216,18 +231,21 @@ contains
          watched = 0.0_dp
          if (allocated(watch%states)) watched(:numbers, :) = watch%states
          watched(numbers + 1, :) = watch%thinnest
+         histories = 0.0_dp
+         if (allocated(state%nodal)) histories = state%nodal
          row = [real(state%periods, dp), state%acceleration, state%lienard_variable, merge(1.0_dp, 0.0_dp, state%implicit), &
                 real(state%count%steps, dp), real(state%count%evaluations, dp), real(state%count%cuts, dp), &
                 real(state%orbit, dp), real(watch%count, dp), real(watch%newest, dp), &
-                merge(1.0_dp, 0.0_dp, allocated(watch%states)), values, watched]
+                merge(1.0_dp, 0.0_dp, allocated(watch%states)), values, watched, histories]
       end associate
    end function row_of
 
    !> The state of a row; see `row_of`.
-   pure function state_of(row, numbers) result(state)
+   pure function state_of(row, numbers, nodal) result(state)
       real(dp), intent(in) :: row(:)
-      !> How many it has
+      !> How many it has, and how many of films in nodes
       integer, intent(in) :: numbers
+      integer, intent(in) :: nodal
       type(checkpoint_t) :: state
       real(dp) :: watched(numbers + 1, 0:kept_states - 1)
       integer :: place
@@ -243,7 +261,8 @@ contains
       state%orbit = nint(row(8))
       place = size(head_names)
       allocate (state%numbers, source=row(place + 1:place + numbers))
-      watched(:, :) = reshape(row(place + numbers + 1:), shape(watched))
+      watched(:, :) = reshape(row(place + numbers + 1:size(row) - nodal), shape(watched))
+      if (nodal > 0) allocate (state%nodal, source=row(size(row) - nodal + 1:))
       state%watch%count = nint(row(9))
       state%watch%newest = nint(row(10))
       if (row(11) > 0.5_dp) allocate (state%watch%states(numbers, 0:kept_states - 1), source=watched(:numbers, :))

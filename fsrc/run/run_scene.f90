@@ -117,7 +117,7 @@ contains
             profiles%wanted = scene%output%profiles
             if (allocated(scene%output%profile_phases)) profiles%phases = scene%output%profile_phases
             call solve_nodal_scene(scene, judged%resolved%problem, judged%nodal, request_of(scene), recorder, watcher, ending, &
-                                   record, error, profiles)
+                                   record, error, profiles, state)
          else if (scene%solver%method /= method_taylor) then
             call solve_newmark(judged%resolved%problem, request_of(scene), recorder, watcher, state, ending, record, error)
          else

@@ -74,24 +74,50 @@ def test_a_gear_is_near_its_closure_and_within_its_errors() -> None:
     assert np.abs(moved - series["squeeze_velocity"]).max() <= 0.02 * np.abs(moved).max()
 
 
-def test_a_run_that_is_carried_on_starts_anew(run, tmp_path: Path) -> None:
-    (tmp_path / "one.nml").write_text(GEAR)
-    periods = (
-        "--set",
-        "solver.until=periods",
-        "--set",
-        "spectrum.periods=1",
-        "--set",
-        "spectrum.verify=false",
+@pytest.mark.parametrize("nodes", (24, 32))
+def test_a_run_that_is_carried_on_is_that_of_one_long_run(nodes: int, run, tmp_path: Path) -> None:
+    """To the last bit, from a state in which the drive film is in nodes: the steady load bends it."""
+    (tmp_path / "one.nml").write_text(GEAR.replace("drag_torque = 0.08", "drag_torque = 2.0"))
+    settings = (
+        *("solver.until=periods", "spectrum.periods=1", "spectrum.verify=false", f"film.nodes={nodes}"),
+        "output.profiles=true",
     )
-    for folder, counts in (("whole", (4,)), ("parts", (2, 4))):
+    common = [part for setting in settings for part in ("--set", setting)]
+    for folder, counts in (("whole", (7,)), ("parts", (2, 4, 7))):
         for count in counts:
             number = f"solver.periods={count}"
-            ended = run(*periods, "--set", number, "--resume", "--output", folder, "one.nml", cwd=tmp_path)
+            ended = run(*common, "--set", number, "--resume", "--output", folder, "one.nml", cwd=tmp_path)
             assert ended.returncode == 0, ended.stderr
+    assert "carried on from period 3" in ended.stdout
     whole, parts = (summary_of(tmp_path / folder / "one.summary.nml") for folder in ("whole", "parts"))
-    for name in ("film_minimum", "acceleration_maximum", "result_checksum"):
+    for name in (
+        "film_minimum",
+        "acceleration_maximum",
+        "result_checksum",
+        "steps",
+        "evaluations",
+        "periods_solved",
+    ):
         assert whole[name] == parts[name], name
+    state = package.read(tmp_path / "whole/one.state")
+    assert sum(float(state[name][0]) > 0.0 for name in state.names if name.startswith("nodal_")) > 100
+    for ending in ("rattle", "profiles.rattle", "state"):
+        assert (tmp_path / f"whole/one.{ending}").read_bytes() == (
+            tmp_path / f"parts/one.{ending}"
+        ).read_bytes()
+
+
+def test_a_run_until_steady_that_is_carried_on_starts_anew(run, tmp_path: Path) -> None:
+    (tmp_path / "one.nml").write_text(GEAR)
+    for folder, counts in (("whole", (80,)), ("parts", (60, 80))):
+        for count in counts:
+            number = f"solver.periods={count}"
+            ended = run(
+                *("--set", number, "--set", "spectrum.verify=false", "--resume", "--output", folder),
+                "one.nml",
+                cwd=tmp_path,
+            )
+            assert ended.returncode == 0, ended.stderr
     assert (tmp_path / "whole/one.rattle").read_bytes() == (tmp_path / "parts/one.rattle").read_bytes()
 
 
