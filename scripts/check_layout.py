@@ -30,7 +30,9 @@ KNOW_LAWS = {
 KNOW_FLANKS = {
     "series and implicit steps, each with the equations of its flanks and springs": (
         "motion/collocation_newton",
+        "motion/elastic_equations",
         "motion/elastic_step",
+        "motion/elastic_trial",
         "motion/film_series",
         "motion/inner_equations",
         "motion/lane_advance",

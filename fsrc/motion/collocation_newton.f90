@@ -1,6 +1,7 @@
 !> Newton's method for the equations of collocation (collocation_step), for a block of lanes: states at the
 !> nodes, load and slopes there, linear equations, corrections.
 module collocation_newton
+   use collocation_basis, only: pass_share, rounding
    use film_state, only: load_t
    use flank_contact, only: flank_contact_t, is_costly, load_of_contact, mixed_loads, overflow_load
    use kinds, only: dp
@@ -11,12 +12,8 @@ module collocation_newton
    implicit none(type, external)
    private
 
-   !> Share of the accuracy at which the iterations end.
-   real(dp), parameter :: pass_share = 1.0e-2_dp
    !> Ratio of two corrections below which Newton's method is sure to converge quadratically.
    real(dp), parameter :: fast = 0.03_dp
-   !> Error that is rounding alone.
-   real(dp), parameter :: rounding = 16.0_dp*epsilon(1.0_dp)
 
    !> What a pass of Newton's method says of the next.
    type, public :: newton_pass_t

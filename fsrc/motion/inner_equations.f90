@@ -2,33 +2,17 @@
 !> inner_step), so that the gear meets loads whose slopes reach over all nodes of the step. The Makefile keeps these procedures out
 !> of the steps that call them, which films without a state take as well.
 module inner_equations
-   use collocation_step, only: highest_terms
+   use collocation_basis, only: can_extrapolate, highest_terms, last_share
+   use elastic_trial, only: sign_of, trial_t
    use flank_contact, only: flank_contact_t
    use inner_step, only: eliminate_state, follow_film, inner_step_t, step_response_t
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_inner, only: evaluate_inner, lane_inner_t
-   use radau_nodes, only: meet_start, node, once, power, powers_of_place, slope, stages, twice
+   use radau_nodes, only: meet_start, node, once, power, powers_of_place, rows, slope, stages, twice
+   use step_elimination, only: most_columns, most_rows
    implicit none(type, external)
    private
-
-   !> Longest step over the one before for which polynomials are carried on; share of the accuracy for the last coefficient of one
-   real(dp), parameter, public :: most_growth = 1.99_dp, last_share = 40.0_dp
-
-   !> Rows of a matrix, those of zeros included that fill up the last four
-   integer, parameter, public :: most_rows = 2*stages + modulo(-2*stages, 4)
-
-   !> A step under way: values at the nodes, of one or two flanks [-].
-   type, public :: trial_t
-      integer :: flanks = 1
-      !> Loads W, films H, film velocities H', and the films at the start
-      real(dp) :: load(stages, 2) = 0.0_dp, film(stages, 2) = 0.0_dp, velocity(stages, 2) = 0.0_dp, start(2) = 0.0_dp
-      !> Compression of flanks that bend by their width, at the start too; how the compression follows the film, as a share of the
-      !> gear's way, and what a load moves its film by
-      real(dp) :: width(stages, 2) = 0.0_dp, start_width(2) = 0.0_dp, follows(stages, 2) = 0.0_dp, compliance(stages, 2) = 0.0_dp
-      !> A, and of the gear V and Z - Z at the start
-      real(dp) :: acceleration(stages) = 0.0_dp, lienard(stages) = 0.0_dp, way(stages) = 0.0_dp
-   end type trial_t
 
    !> States of both films through the step, and what the gear sees of them.
    type, public :: trial_inner_t
@@ -36,10 +20,7 @@ module inner_equations
       type(step_response_t) :: responses(2)
    end type trial_inner_t
 
-   !> Signs of the gear's motion in the films
-   real(dp), parameter, public :: sign_of(2) = [1.0_dp, -1.0_dp]
-
-   public :: first_states, can_extrapolate, inner_imbalances, inner_matrix, follow_films, error_of_states, series_of_states
+   public :: first_states, inner_imbalances, inner_matrix, follow_films, error_of_states, series_of_states
 
 contains
 
@@ -67,22 +48,14 @@ contains
       end do
    end subroutine first_states
 
-   !> Whether the polynomials of the step before may be carried on to the end of this one.
-   pure logical function can_extrapolate(lane, block)
-      integer, intent(in) :: lane
-      type(lane_block_t), intent(in) :: block
-
-      can_extrapolate = block%last_step(lane) > 0.0_dp .and. block%step(lane) <= most_growth*block%last_step(lane)
-   end function can_extrapolate
-
-   !> The same of films with a state, whose loads follow from the films at all nodes.
+   !> By how much the laws of films with a state miss at the nodes, whose loads follow from the films at all nodes.
    pure subroutine inner_imbalances(contact, lane, block, trial, inner_trial, right, found)
       type(flank_contact_t), intent(in) :: contact
       integer, intent(in) :: lane
       type(lane_block_t), intent(inout) :: block
       type(trial_t), intent(in) :: trial
       type(trial_inner_t), intent(inout) :: inner_trial
-      real(dp), intent(out) :: right(2*stages)
+      real(dp), intent(out) :: right(most_rows)
       logical, intent(out) :: found
       integer :: flank
 
@@ -92,11 +65,12 @@ contains
          if (.not. found) return
          associate (response => inner_trial%responses(flank))
             call eliminate_state(contact, slope, block%step(lane)*block%film_scale(lane)/block%velocity_scale(lane), &
-                                 trial%film(:, flank)*block%film_scale(lane), &
-                                 trial%velocity(:, flank)*block%velocity_scale(lane), inner_trial%films(flank), response)
+                                 trial%film(:stages, flank)*block%film_scale(lane), &
+                                 trial%velocity(:stages, flank)*block%velocity_scale(lane), inner_trial%films(flank), response)
             block%no_load(lane) = response%overloaded
             found = response%exists
-            if (found) right(stages*(flank - 1) + 1:stages*flank) = response%loads/block%force_scale(lane) - trial%load(:, flank)
+            if (found) right(rows*(flank - 1) + 1:rows*flank - 1) = response%loads/block%force_scale(lane) - &
+                                                                     trial%load(:stages, flank)
          end associate
       end do
    end subroutine inner_imbalances
@@ -107,24 +81,25 @@ contains
       type(lane_block_t), intent(in) :: block
       integer, intent(in) :: flanks
       type(step_response_t), intent(in) :: responses(2)
-      real(dp), intent(out) :: matrix(most_rows, 2*stages)
+      real(dp), intent(out) :: matrix(most_rows, most_columns)
       real(dp), dimension(stages, stages) :: by_film, by_velocity, by_gear
-      integer :: first, flank, other, i
+      integer :: first, column, flank, other, i
 
       matrix = 0.0_dp
       associate (s => block%step(lane), kappa => block%compliance(lane))
          do flank = 1, flanks
-            first = stages*(flank - 1)
+            first = rows*(flank - 1)
+            column = stages*(flank - 1)
             by_film = -responses(flank)%by_film*(block%film_scale(lane)/block%force_scale(lane))
             by_velocity = -responses(flank)%by_velocity*(block%velocity_scale(lane)/block%force_scale(lane))
             by_gear = s*(s*matmul(by_film, twice) + matmul(by_velocity, once))
             do other = 1, flanks
                matrix(first + 1:first + stages, stages*(other - 1) + 1:stages*other) = sign_of(flank)*sign_of(other)*by_gear
             end do
-            matrix(first + 1:first + stages, first + 1:first + stages) = &
-               matrix(first + 1:first + stages, first + 1:first + stages) + kappa*(by_film + matmul(by_velocity, slope)/s)
-            do i = first + 1, first + stages
-               matrix(i, i) = matrix(i, i) + 1.0_dp
+            matrix(first + 1:first + stages, column + 1:column + stages) = &
+               matrix(first + 1:first + stages, column + 1:column + stages) + kappa*(by_film + matmul(by_velocity, slope)/s)
+            do i = 1, stages
+               matrix(first + i, column + i) = matrix(first + i, column + i) + 1.0_dp
             end do
          end do
       end associate
@@ -148,8 +123,9 @@ contains
 
       largest = 0.0_dp
       do flank = 1, trial%flanks
-         call follow_film(share, (trial%film(:, flank) - before%film(:, flank))*block%film_scale(lane), &
-                          (trial%velocity(:, flank) - before%velocity(:, flank))*block%velocity_scale(lane), films(flank), changes)
+         call follow_film(share, (trial%film(:stages, flank) - before%film(:stages, flank))*block%film_scale(lane), &
+                          (trial%velocity(:stages, flank) - before%velocity(:stages, flank))*block%velocity_scale(lane), &
+                          films(flank), changes)
          largest = max(largest, maxval(changes*inner%counts_as(inner%count*(flank - 1) + 1:inner%count*flank)) &
                        /block%film_scale(lane))
       end do

@@ -111,23 +111,50 @@ module radau_nodes
       & 1.0_dp, -49.0_dp, 588.0_dp, -2940.0_dp, &
       & 7350.0_dp, -9702.0_dp, 6468.0_dp, -1716.0_dp]
 
-   public :: powers_of_place, meet_start
+   integer :: i, j
+   !> Rows of a table that fills registers: one for each node, that of the last node twice
+   integer, parameter, public :: rows = 8
+   !> Nodes, and the tables above, in rows: the integrals, the slopes, and the coefficients of the powers of 2c - 1
+   integer, parameter :: row_of(rows) = [(min(i, stages), i=1, rows)]
+   real(dp), parameter, public :: node_rows(rows) = node(row_of)
+   real(dp), parameter, public :: once_rows(rows, stages) = once(row_of, :), twice_rows(rows, stages) = twice(row_of, :), &
+                                  slope_rows(rows, stages) = slope(row_of, :), power_rows(rows, stages) = power(row_of, :)
+   !> Coefficient of c**(i - 1) in (2c - 1)**(j - 1)
+   real(dp), parameter :: place_rows(rows, stages) = reshape( &
+      & [((merge(2.0_dp**(i - 1)*(-1.0_dp)**modulo(j - i, 2)*anint(gamma(real(j, dp))/ &
+                 (gamma(real(i, dp))*gamma(real(max(j - i, 0) + 1, dp)))), 0.0_dp, i <= j), i=1, rows), j=1, stages)], &
+      & [rows, stages])
+
+   public :: weigh, powers_of_place, meet_start
 
 contains
 
-   !> From coefficients of the powers of 2c - 1 to those of the powers of c: Horner's scheme on polynomials.
+   !> Sums of values at the nodes, weighted by the rows of a table.
+   pure subroutine weigh(table, values, sums)
+      real(dp), intent(in) :: table(rows, stages)
+      !> Of which those at the nodes count
+      real(dp), intent(in) :: values(rows)
+      real(dp), intent(out) :: sums(rows)
+      integer :: row, place
+
+      sums = table(:, 1)*values(1)
+      do place = 2, stages
+         !$omp simd
+         do row = 1, rows
+            sums(row) = sums(row) + table(row, place)*values(place)
+         end do
+      end do
+   end subroutine weigh
+
+   !> From coefficients of the powers of 2c - 1 to those of the powers of c.
    pure function powers_of_place(polynomial) result(shifted)
       real(dp), intent(in) :: polynomial(stages)
       real(dp) :: shifted(0:stages)
-      integer :: i, j
+      real(dp) :: in_rows(rows)
 
-      shifted = 0.0_dp
-      do i = stages, 1, -1
-         do j = stages - 1, 1, -1
-            shifted(j) = 2.0_dp*shifted(j - 1) - shifted(j)
-         end do
-         shifted(0) = polynomial(i) - shifted(0)
-      end do
+      in_rows(:stages) = polynomial
+      in_rows(rows) = 0.0_dp
+      call weigh(place_rows, in_rows, shifted)
    end function powers_of_place
 
    !> Let a polynomial through the values at the nodes meet that at the start: one that is there alone makes up for what it misses.

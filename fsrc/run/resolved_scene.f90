@@ -1,7 +1,7 @@
 !> A scene with all that follows from it before anything is solved.
 module resolved_scene
    use constants, only: two_pi
-   use elastic_step, only: pass_share
+   use collocation_basis, only: pass_share
    use engine, only: request_t
    use film_pressure, only: pressure_scale
    use force, only: largest_oscillation

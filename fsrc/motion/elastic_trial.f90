@@ -1,0 +1,97 @@
+!> A try of an implicit step of contacts with numbers of their own (module elastic_step): the gear, the springs and the films that
+!> follow from the loads at the nodes.
+module elastic_trial
+   use flank_contact, only: films_over_gaps, flank_contact_t
+   use kinds, only: dp
+   use lane_block, only: lane_block_t
+   use radau_nodes, only: node_rows, once_rows, rows, slope_rows, twice_rows, weigh
+   implicit none(type, external)
+   private
+
+   !> A step under way: values at the nodes, those of the last one twice, which fills registers, of one or two flanks [-].
+   type, public :: trial_t
+      integer :: flanks = 1
+      !> Loads W, films H, film velocities H', and the films at the start
+      real(dp) :: load(rows, 2) = 0.0_dp, film(rows, 2) = 0.0_dp, velocity(rows, 2) = 0.0_dp, start(2) = 0.0_dp
+      !> Compression of flanks that bend by their width, at the start too; how the compression follows the film, as a share of the
+      !> gear's way, and what a load moves its film by
+      real(dp) :: width(rows, 2) = 0.0_dp, start_width(2) = 0.0_dp, follows(rows, 2) = 0.0_dp, compliance(rows, 2) = 0.0_dp
+      !> A, and of the gear V and Z - Z at the start
+      real(dp) :: acceleration(rows) = 0.0_dp, lienard(rows) = 0.0_dp, way(rows) = 0.0_dp
+   end type trial_t
+
+   !> Signs of the gear's motion in the films
+   real(dp), parameter, public :: sign_of(2) = [1.0_dp, -1.0_dp]
+
+   public :: follow_loads
+
+contains
+
+   !> Gear and films that follow from the loads.
+   pure subroutine follow_loads(contact, lane, force, block, trial)
+      type(flank_contact_t), intent(in) :: contact
+      integer, intent(in) :: lane
+      !> F at the nodes [-]
+      real(dp), intent(in) :: force(rows)
+      type(lane_block_t), intent(in) :: block
+      type(trial_t), intent(inout) :: trial
+      real(dp), dimension(rows, 2) :: gap, yielded
+      real(dp), dimension(rows) :: once, twice, rate
+      integer :: flank
+
+      associate (s => block%step(lane), kappa => block%compliance(lane))
+         trial%acceleration = trial%load(:, 1) - force
+         if (trial%flanks == 2) trial%acceleration = trial%acceleration - trial%load(:, 2)
+         call weigh(once_rows, trial%acceleration, once)
+         call weigh(twice_rows, trial%acceleration, twice)
+         trial%lienard = block%lienard(lane, 0) + s*once
+         trial%way = s*(node_rows*block%lienard(lane, 0) + s*twice)
+         do flank = 1, trial%flanks
+            yielded(:, flank) = kappa*trial%load(:, flank) - block%compression(lane, flank, 0)
+            gap(:, flank) = trial%start(flank) + (sign_of(flank)*trial%way + yielded(:, flank))
+         end do
+         if (contact%film%bends) then
+            call bend(contact, lane, block, gap, yielded, trial)
+         else
+            trial%film(:, :trial%flanks) = gap(:, :trial%flanks)
+         end if
+         do flank = 1, trial%flanks
+            call weigh(slope_rows, yielded(:, flank), rate)
+            trial%velocity(:, flank) = sign_of(flank)*trial%lienard + rate/s
+         end do
+      end associate
+   end subroutine follow_loads
+
+   !> Films of flanks that bend, from those that would be there if their width stayed what it was, and their compressions. They are
+   !> looked for from where they were found last.
+   pure subroutine bend(contact, lane, block, gap, yielded, trial)
+      type(flank_contact_t), intent(in) :: contact
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      !> Films without a change of width, of one or two flanks [-]
+      real(dp), intent(in) :: gap(rows, 2)
+      !> Compressions since the start, then with those by the width [-]
+      real(dp), intent(inout) :: yielded(rows, 2)
+      type(trial_t), intent(inout) :: trial
+      real(dp), dimension(rows, 2) :: gaps, loads, near, films, by_gap, by_load
+      integer :: flank
+
+      associate (scale => block%film_scale(lane), unit => block%force_scale(lane))
+         do flank = 1, trial%flanks
+            gaps(:, flank) = (gap(:, flank) - trial%start_width(flank))*scale
+            loads(:, flank) = trial%load(:, flank)*unit
+            near(:, flank) = trial%film(:, flank)*scale
+         end do
+         call films_over_gaps(contact%film, rows*trial%flanks, gaps, loads, near, films, by_gap, by_load)
+         do flank = 1, trial%flanks
+            trial%film(:, flank) = films(:, flank)/scale
+            trial%width(:, flank) = trial%film(:, flank) - (gap(:, flank) - trial%start_width(flank))
+            yielded(:, flank) = yielded(:, flank) + (trial%width(:, flank) - trial%start_width(flank))
+            trial%follows(:, flank) = by_gap(:, flank)
+            trial%compliance(:, flank) = block%compliance(lane)*(1.0_dp + by_gap(:, flank)) + &
+                                         by_load(:, flank)*(unit/scale)
+         end do
+      end associate
+   end subroutine bend
+
+end module elastic_trial
