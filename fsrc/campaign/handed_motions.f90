@@ -6,7 +6,7 @@ module handed_motions
    use grid_blocks, only: neighbours_of
    use kinds, only: dp, int64
    use motion_start, only: motion_start_t, motion_starts, one_start_reason, several_starts, state_of_start
-   use rattle_class, only: class_irregular
+   use rattle_class, only: class_irregular, class_irregular_so_far
    use resolved_scene, only: resolved_scene_t
    use row_motions, only: are_alike, handed_state, row_motions_t, solve_trials, trial_t
    use sampling, only: sample_plan_t
@@ -21,16 +21,18 @@ module handed_motions
    !> Seed of the starts that are drawn
    integer, parameter :: start_seed = 1
 
-   !> Motions that a scene was handed: numbers of the scenes that had them, and their places there
+   !> Motions that a scene was handed: numbers of the scenes that had them, and their places there; and those that did not settle
    type :: handed_t
       integer, allocatable :: scenes(:), places(:)
+      type(settled_motion_t), allocatable :: unsettled(:)
    end type handed_t
 
    public :: find_other_motions, hand_on_motions
 
 contains
 
-   !> Motions from all starts of the scenes but the first, rest. After a signal to stop they are of no use.
+   !> Motions from all starts of the scenes but the first, rest; one from rest that has not shown what it is is followed on. After a
+   !> signal to stop they are of no use.
    subroutine find_other_motions(scene, resolved, choices, requests, with_verdicts, order, space, found, error)
       !> Base scene
       type(scene_t), intent(in) :: scene
@@ -69,6 +71,12 @@ contains
          call solve_trials(resolved, choices, requests, with_verdicts, trials(:size(left)), space, found, error)
          if (must_stop() .or. allocated(error)) return
       end do
+      left = pack(left, [(found(left(i))%settled(1)%period == 0 .and. &
+                          found(left(i))%told%motions(1)%class == class_irregular_so_far, i=1, size(left))])
+      do i = 1, size(left)
+         trials(i) = trial_t(left(i), found(left(i))%settled(1)%states(:, 1), is_own=.true.)
+      end do
+      call solve_trials(resolved, choices, requests, with_verdicts, trials(:size(left)), space, found, error)
    end subroutine find_other_motions
 
    !> Hand every motion to the neighbours that have none like it, in rounds ordered by the numbers of the scenes.
@@ -89,20 +97,28 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(handed_t) :: handed(size(found))
       type(trial_t), allocatable :: trials(:)
-      integer :: i
+      integer :: i, last
 
       do i = 1, size(handed)
-         allocate (handed(i)%scenes(0), handed(i)%places(0))
+         allocate (handed(i)%scenes(0), handed(i)%places(0), handed(i)%unsettled(0))
       end do
       do
          call next_round(plan, first, resolved, found, handed, trials)
          if (size(trials) == 0) return
          call solve_trials(resolved, choices, requests, with_verdicts, trials, space, found, error)
          if (must_stop() .or. allocated(error)) return
+         do i = 1, size(trials)
+            if (trials(i)%settled) cycle
+            associate (to => handed(trials(i)%scene))
+               ! The trials of a scene are the last ones that it was handed, in their order.
+               last = size(to%scenes) - count(trials(i:)%scene == trials(i)%scene) + 1
+               to%unsettled = [to%unsettled, found(to%scenes(last))%settled(to%places(last))]
+            end associate
+         end do
       end do
    end subroutine hand_on_motions
 
-   !> Starts of the next round. Of motions that are alike a scene is handed one in a round.
+   !> Starts of the next round. Of motions that are alike a scene is handed one in a round, and none any more if one did not settle.
    subroutine next_round(plan, first, resolved, found, handed, trials)
       type(sample_plan_t), intent(in) :: plan
       integer(int64), intent(in) :: first
@@ -118,7 +134,7 @@ contains
       do to = 1, size(found)
          if (.not. takes_part(found(to))) cycle
          neighbours = neighbours_of(plan, first + int(to - 1, int64), plan%positions /= pair_position())
-         known = found(to)%settled
+         known = [found(to)%settled, handed(to)%unsettled]
          do i = 1, size(neighbours)
             if (neighbours(i) < first .or. neighbours(i) >= first + size(found, kind=int64)) cycle
             from = int(neighbours(i) - first) + 1

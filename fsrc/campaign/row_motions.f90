@@ -7,10 +7,12 @@ module row_motions
    use errors, only: error_t
    use irregular_motion, only: follow_irregular
    use kinds, only: dp
+   use lyapunov, only: path_t
    use known_motions, only: are_near, known_motions_t
    use node_extremes, only: seen_film, seen_load, seen_net_load, seen_quantities
+   use periodic_orbit, only: map_states
    use problem, only: problem_t, state_size
-   use rattle_class, only: class_irregular, class_irregular_so_far, rattle_verdict_t
+   use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_group, only: classify_group, has_window, scene_group_t, solve_group
    use scene_status, only: is_success
@@ -41,6 +43,10 @@ module row_motions
       !> Place of its scene in the batch
       integer :: scene = 0
       real(dp), allocatable :: state(:)
+      !> Whether it is the end of the motion from rest, which is followed on
+      logical :: is_own = .false.
+      !> On return, whether it came to a motion that repeats
+      logical :: settled = .false.
    end type trial_t
 
    public :: motion_from_rest, solve_trials, handed_state, are_alike
@@ -48,7 +54,7 @@ module row_motions
 contains
 
    !> The motion of a scene that was solved from its own start.
-   pure type(row_motions_t) function motion_from_rest(problem, samples_per_period, place, group) result(found)
+   type(row_motions_t) function motion_from_rest(problem, samples_per_period, place, group) result(found)
       !> What moves
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: samples_per_period
@@ -67,8 +73,8 @@ contains
    end function motion_from_rest
 
    !> A motion by its window. Where the run ended before the motion repeats within the accuracy, the states of the window tell after
-   !> how many periods they come again near enough.
-   pure type(settled_motion_t) function settled_of(problem, samples_per_period, place, group) result(settled)
+   !> how many periods they come again near enough, or the periodic motion that was found next to its end.
+   type(settled_motion_t) function settled_of(problem, samples_per_period, place, group) result(settled)
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: samples_per_period
       integer, intent(in) :: place
@@ -88,8 +94,33 @@ contains
          settled%period = ending%orbit
          if (settled%period == 0) settled%period = near_orbit(problem, near_states(problem), states)
          settled%states = states(:, periods - max(1, settled%period) + 1:)
+         if (settled%period == 0 .and. group%verdicts(place)%class == class_subharmonic .and. group%repeat_after(place) > 1) &
+            call follow_on(problem, group%repeat_after(place), settled)
+         if (allocated(group%paths(place)%states)) settled%path = group%paths(place)%states
       end associate
    end function settled_of
+
+   !> States of a motion that repeats after more periods than its window may have, from the end of the window on.
+   subroutine follow_on(problem, period, settled)
+      type(problem_t), intent(in) :: problem
+      !> Periods of the force after which it repeats
+      integer, intent(in) :: period
+      !> With its last state
+      type(settled_motion_t), intent(inout) :: settled
+      real(dp) :: states(size(settled%states, 1), period), state(size(settled%states, 1), 1)
+      logical :: mapped
+      integer :: i
+
+      state = settled%states(:, size(settled%states, 2):)
+      do i = 1, period
+         states(:, i) = state(:, 1)
+         if (i == period) exit
+         call map_states(problem, 1, enough_accuracy, state, mapped)
+         if (.not. mapped) return
+      end do
+      settled%period = period
+      settled%states = states
+   end subroutine follow_on
 
    !> What is told of a motion by its window.
    pure type(told_motion_t) function told_of(problem, place, group, settled) result(told)
@@ -137,7 +168,7 @@ contains
       !> Whether the verdicts of the motions are asked for
       logical, intent(in) :: with_verdicts
       !> The starts; the first of those that lead to one motion counts
-      type(trial_t), intent(in) :: trials(:)
+      type(trial_t), intent(inout) :: trials(:)
       !> Work space
       type(scene_group_t), intent(inout) :: space
       type(row_motions_t), intent(inout) :: found(:)
@@ -187,7 +218,7 @@ contains
             if (must_stop() .or. allocated(error)) return
             call follow_new(resolved(scenes)%problem, scenes, found, space)
             do k = 1, size(own)
-               call add_motion(resolved(scenes(k))%problem, request%samples_per_period, k, space, found(scenes(k)))
+               call add_motion(resolved(scenes(k))%problem, request%samples_per_period, k, space, trials(own(k)), found(scenes(k)))
             end do
          end associate
       end subroutine solve_alike
@@ -202,6 +233,7 @@ contains
       type(row_motions_t), intent(in) :: found(:)
       type(scene_group_t), intent(inout) :: space
       type(rattle_verdict_t), allocatable :: verdicts(:)
+      type(path_t), allocatable :: paths(:)
       integer, allocatable :: new(:), repeat_after(:)
       integer :: k
 
@@ -209,8 +241,11 @@ contains
       if (size(new) == 0) return
       allocate (verdicts, source=space%verdicts(new))
       repeat_after = space%repeat_after(new)
-      call follow_irregular(problems(new), space%endings(new), verdicts, repeat_after)
+      allocate (paths(size(new)))
+      call follow_irregular(problems(new), space%endings(new), verdicts, repeat_after, paths)
       space%verdicts(new) = verdicts
+      space%repeat_after(new) = repeat_after
+      space%paths(new) = paths
 
    contains
 
@@ -225,34 +260,80 @@ contains
 
    end subroutine follow_new
 
-   !> Count a start, and add its motion if that is none of those that are known: one that repeats within the accuracy and whose
-   !> states are others, or an irregular one where all others repeat. Two irregular ones cannot be told apart.
-   pure subroutine add_motion(problem, samples_per_period, place, group, found)
+   !> Count a start, and add its motion if that is none of those that are known: one that repeats within the accuracy, or next to
+   !> whose end a motion that repeats was found, and whose states are others, or an irregular one where all others repeat. Two
+   !> irregular ones cannot be told apart.
+   subroutine add_motion(problem, samples_per_period, place, group, trial, found)
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: samples_per_period
       !> Place of the start in its group
       integer, intent(in) :: place
       type(scene_group_t), intent(in) :: group
+      type(trial_t), intent(inout) :: trial
       type(row_motions_t), intent(inout) :: found
       type(settled_motion_t) :: motion
+      type(told_motion_t) :: told
+      integer :: known, i
+
+      associate (ending => group%endings(place))
+         if (.not. trial%is_own) found%told%starts_solved = found%told%starts_solved + 1
+         found%told%extra_periods = found%told%extra_periods + ending%periods
+         known = ending%known
+         trial%settled = ending%orbit > 0
+         if (known == 0 .and. is_success(ending%status)) then
+            motion = settled_of(problem, samples_per_period, place, group)
+            if (.not. trial%settled) trial%settled = motion%period > 0 .and. group%verdicts(place)%class == class_subharmonic
+            if (trial%settled) then
+               do i = 1, size(found%settled)
+                  if (same_motion(problem, found%settled(i), motion)) known = i
+               end do
+            else
+               motion%period = 0
+               motion%states = motion%states(:, size(motion%states, 2):)
+            end if
+            if (known == 0 .and. is_another(trial%settled, group%verdicts(place)%class, found%settled)) then
+               told = told_of(problem, place, group, motion)
+               found%settled = [found%settled, motion]
+               found%told%motions = [found%told%motions, told]
+               known = size(found%settled)
+            end if
+         end if
+      end associate
+      if (.not. trial%is_own) then
+         if (.not. trial%settled) found%told%unsettled_starts = found%told%unsettled_starts + 1
+      else if (known > 1) then
+         call give_own_motion(known, trial%settled, found)
+      end if
+   end subroutine add_motion
+
+   !> Whether a motion that is the same as none that are known is another one.
+   pure logical function is_another(settled, class, known)
+      !> Whether it repeats
+      logical, intent(in) :: settled
+      !> Code of its class
+      integer, intent(in) :: class
+      !> Those that are known
+      type(settled_motion_t), intent(in) :: known(:)
+
+      is_another = settled .or. (class == class_irregular .and. .not. any(known%period == 0))
+   end function is_another
+
+   !> The motion from rest, followed on, has come to another one: it is that one.
+   subroutine give_own_motion(known, settled, found)
+      !> Its place
+      integer, intent(in) :: known
+      !> Whether that one repeats
+      logical, intent(in) :: settled
+      type(row_motions_t), intent(inout) :: found
+      integer, allocatable :: order(:)
       integer :: i
 
-      found%told%starts_solved = found%told%starts_solved + 1
-      found%told%extra_periods = found%told%extra_periods + group%endings(place)%periods
-      if (group%endings(place)%known > 0) return
-      if (group%endings(place)%orbit == 0) found%told%unsettled_starts = found%told%unsettled_starts + 1
-      if (.not. is_success(group%endings(place)%status)) return
-      motion = settled_of(problem, samples_per_period, place, group)
-      if (group%endings(place)%orbit > 0) then
-         if (any([(same_motion(problem, found%settled(i), motion), i=1, size(found%settled))])) return
-      else
-         motion%period = 0
-         motion%states = motion%states(:, size(motion%states, 2):)
-         if (group%verdicts(place)%class /= class_irregular .or. any(found%settled%period == 0)) return
-      end if
-      found%settled = [found%settled, motion]
-      found%told%motions = [found%told%motions, told_of(problem, place, group, motion)]
-   end subroutine add_motion
+      order = [known, pack([(i, i=2, size(found%settled))], [(i, i=2, size(found%settled))] /= known)]
+      found%settled = found%settled(order)
+      found%told%motions = found%told%motions(order)
+      found%told%motions(1)%from_own_start = .true.
+      if (settled) found%told%unsettled_starts = found%told%unsettled_starts - 1
+   end subroutine give_own_motion
 
    !> Whether two motions are alike: of one period and with nearly the same acceleration, or both do not repeat.
    elemental logical function are_alike(one, other)

@@ -5,6 +5,7 @@ module scene_group
    use engine, only: ending_t, motion_state_t, request_t, reserved_periods
       use finer_windows, only: classify_finer
    use irregular_motion, only: follow_irregular
+   use lyapunov, only: path_t
    use kinds, only: dp
    use known_motions, only: known_motions_t
    use many_motions, only: solve_motions
@@ -34,6 +35,8 @@ module scene_group
       type(rattle_verdict_t), allocatable :: verdicts(:)
       !> Periods after which they repeat, by the engine or by a search at their ends; 0 where none is known
       integer, allocatable :: repeat_after(:)
+      !> Where the motions went that are irregular
+      type(path_t), allocatable :: paths(:)
       !> Set if there was no memory for the samples that a class needs: the classes are of no use
       type(error_t), allocatable :: error
       !> z'' of one scene [m/s2]
@@ -70,15 +73,16 @@ contains
       numbers = maxval(state_size(problems))
       if (allocated(group%states)) then
          if (size(group%states, 1) < samples .or. size(group%states, 2) /= numbers .or. size(group%states, 3) < n) &
-            deallocate (group%states, group%endings, group%records, group%verdicts, group%repeat_after, &
+            deallocate (group%states, group%endings, group%records, group%verdicts, group%repeat_after, group%paths, &
                         group%accelerations)
       end if
       if (.not. allocated(group%states)) &
          allocate (group%states(samples, numbers, n), group%endings(n), group%records(n), group%verdicts(n), &
-                   group%repeat_after(n), group%accelerations(samples))
+                   group%repeat_after(n), group%paths(n), group%accelerations(samples))
       blank%wants = wants
       do i = 1, n
          group%records(i) = blank
+         group%paths(i) = path_t()
          if (present(impact_limits)) group%records(i)%loads%impact_limit = impact_limits(i)
       end do
       call solve_motions(problems, starts, request, group%states(:, :, :n), group%endings(:n), records=group%records(:n), &
@@ -167,7 +171,7 @@ contains
       type(scene_group_t), intent(inout) :: group
 
       associate (n => size(problems))
-         call follow_irregular(problems, group%endings(:n), group%verdicts(:n), group%repeat_after(:n))
+         call follow_irregular(problems, group%endings(:n), group%verdicts(:n), group%repeat_after(:n), group%paths(:n))
       end associate
    end subroutine follow_group
 

@@ -1,18 +1,21 @@
-!> Periodic motions that are known of a problem. A motion from another start that has come to one of them need not be followed
-!> any further.
+!> Motions that are known of a problem: periodic ones, and the irregular one. A motion from another start that has come to one of
+!> them need not be followed any further.
 module known_motions
+   use irregular_states, only: are_of_one_motion, compared_periods
    use kinds, only: dp
    use problem, only: compression_count, of_drive_compression, of_film, of_velocity, problem_t
    implicit none(type, external)
    private
 
-   !> A periodic motion by its states.
+   !> A motion by its states.
    type, public :: known_motion_t
       !> States at the starts of its periods of the force, one after the other: number of the state, period; none: it does not repeat
       real(dp), allocatable :: states(:, :)
+      !> Films and velocities at the ends of many periods of an irregular one: number, period; not allocated: they are not known
+      real(dp), allocatable :: path(:, :)
    end type known_motion_t
 
-   !> What is known of the stable periodic motions of a problem.
+   !> What is known of the motions of a problem that others come to.
    type, public :: known_motions_t
       type(known_motion_t), allocatable :: motions(:)
       !> Largest differences of films and compressions [m] and of velocities [m/s] of states that count as one
@@ -20,7 +23,7 @@ module known_motions
       real(dp) :: near_velocity = 0.0_dp
    end type known_motions_t
 
-   public :: reached_motion, are_near
+   public :: reached_motion, joined_irregular, are_near
 
 contains
 
@@ -52,6 +55,19 @@ contains
          end associate
       end do
    end function reached_motion
+
+   !> The known irregular motion that the last periods of another motion are like; 0: none.
+   pure integer function joined_irregular(known, path) result(joined)
+      type(known_motions_t), intent(in) :: known
+      !> Films and velocities at the ends of its periods: number, period
+      real(dp), intent(in) :: path(:, :)
+
+      do joined = 1, size(known%motions)
+         if (.not. allocated(known%motions(joined)%path)) cycle
+         if (are_of_one_motion(path(:, max(1, size(path, 2) - compared_periods + 1):), known%motions(joined)%path)) return
+      end do
+      joined = 0
+   end function joined_irregular
 
    !> Whether two states count as one by film, velocity and compressions; what films have behind these follows them.
    pure logical function are_near(problem, known, one, other)

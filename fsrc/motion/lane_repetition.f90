@@ -11,7 +11,8 @@
 module lane_repetition
    use engine, only: last_search_period, motion_state_t, request_t
    use kinds, only: dp, int64
-   use known_motions, only: known_motions_t, reached_motion
+   use irregular_states, only: compared_after
+   use known_motions, only: joined_irregular, known_motions_t, reached_motion
    use lane_run, only: departure_t, lane_run_t, lane_watch_t
    use lane_sampling, only: repeat_samples
    use lane_state, only: films_of_lane, place_state, state_of_lane, thinner_scaled_film
@@ -23,6 +24,8 @@ module lane_repetition
    implicit none(type, external)
    private
 
+   !> Every so many periods a motion is held against an irregular one that is known.
+   integer, parameter :: compared_every = 4
    !> Share of the accuracy within which a motion counts as repeating.
    real(dp), parameter :: repetition_share = 0.3_dp
 
@@ -93,11 +96,19 @@ contains
       !> The block, its period counted and its state that of the period's end
       type(lane_run_t), intent(inout) :: run
       type(motion_state_t) :: here
+      integer :: periods, i
 
       associate (watch => run%watches(lane))
-         if (.not. is_searching(watch, request) .or. watch%departure%period > 0) return
+         if (.not. is_searching(watch, request) .or. watch%departure%period > 0 .or. .not. allocated(known%motions)) return
          here = state_of_lane(lane, run%block, run%inner(lane))
          if (allocated(watch%earlier)) watch%ending%known = reached_motion(problem, known, watch%earlier, here%numbers)
+         if (any([(allocated(known%motions(i)%path), i=1, size(known%motions))])) then
+            if (.not. allocated(watch%path)) allocate (watch%path(of_velocity, 0))
+            periods = size(watch%path, 2) + 1
+            watch%path = reshape([watch%path, here%numbers([of_film, of_velocity])], [of_velocity, periods])
+            if (watch%ending%known == 0 .and. periods >= compared_after .and. modulo(periods, compared_every) == 0) &
+               watch%ending%known = joined_irregular(known, watch%path)
+         end if
          call move_alloc(here%numbers, watch%earlier)
          if (watch%ending%known == 0) return
          watch%ending%orbit = size(known%motions(watch%ending%known)%states, 2)

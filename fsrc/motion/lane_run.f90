@@ -34,6 +34,8 @@ module lane_run
       real(dp), allocatable :: weights(:)
       !> State at the end of the period before, where known motions are looked for
       real(dp), allocatable :: earlier(:)
+      !> Films and velocities at the ends of all periods, where an irregular one is among these: number, period
+      real(dp), allocatable :: path(:, :)
       !> Looks for repetition, and for return to the last bit
       type(orbit_watch_t) :: states = orbit_watch_t()
       type(recurrence_t) :: past = recurrence_t()

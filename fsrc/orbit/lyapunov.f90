@@ -9,7 +9,7 @@ module lyapunov
    use engine, only: ending_t, motion_state_t, request_t
    use kinds, only: dp
    use many_motions, only: solve_motions
-   use problem, only: problem_t
+   use problem, only: of_film, of_velocity, problem_t
    use scene_status, only: status_complete
    use signals, only: must_stop
    implicit none(type, external)
@@ -42,21 +42,30 @@ module lyapunov
       logical :: for_good = .false.
    end type parting_t
 
+   !> Where a motion was.
+   type, public :: path_t
+      !> Films and velocities at the ends of the periods: number, period
+      real(dp), allocatable :: states(:, :)
+   end type path_t
+
    public :: follow_neighbours, parting_of, draws_near
 
 contains
 
    !> Follow motions and their neighbours. After a signal to stop the answer is of no use.
-   subroutine follow_neighbours(problems, states, partings)
+   subroutine follow_neighbours(problems, states, partings, paths)
       !> What moves
       type(problem_t), intent(in) :: problems(:)
       !> Where each motion stands, at the start of a period
       type(motion_state_t), intent(in) :: states(:)
       type(parting_t), intent(out) :: partings(:)
+      !> Where the motions that part for good went
+      type(path_t), intent(out), optional :: paths(:)
       type(request_t) :: one_period
       type(motion_state_t) :: pairs(2, size(problems))
       type(ending_t) :: endings(2*size(problems))
       real(dp) :: growths(-turning_periods + 1:followed_periods, size(problems)), none(0, 2, 2*size(problems))
+      real(dp) :: passed(of_velocity, -turning_periods + 1:followed_periods, size(problems))
       logical :: apart(size(problems))
       integer, allocatable :: left(:)
       integer :: period, i, n
@@ -77,6 +86,7 @@ contains
             associate (place => left(i), motion => endings(2*i - 1), neighbour => endings(2*i))
                if (motion%status /= status_complete .or. neighbour%status /= status_complete) cycle
                call part(problems(place), motion%numbers, neighbour%numbers, pairs(:, place), growths(period, place))
+               passed(:, period, place) = motion%numbers([of_film, of_velocity])
                apart(place) = .true.
                if (period < stretch_periods .or. mod(period, stretch_periods) /= 0) cycle
                partings(place) = parting_of(growths(1:period, place))
@@ -84,6 +94,10 @@ contains
             end associate
          end do
          left = pack(left, apart(left))
+      end do
+      if (.not. present(paths)) return
+      do i = 1, size(problems)
+         if (partings(i)%for_good) paths(i)%states = passed(:, 1:, i)
       end do
    end subroutine follow_neighbours
 

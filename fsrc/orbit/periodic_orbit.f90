@@ -82,7 +82,8 @@ contains
       end do
    end subroutine map_states
 
-   !> Look for a periodic motion near a state; the shortest period that is near enough is taken.
+   !> Look for a periodic motion near a state: the shortest period that is near enough is taken, a motion that attracts others before
+   !> one that they leave. Where a motion has doubled its period, the one that it was is near by still.
    function find_periodic_orbit(problem, state, nearness) result(orbit)
       !> What moves
       type(problem_t), intent(in) :: problem
@@ -91,6 +92,7 @@ contains
       !> Distance at which a periodic motion is another one, relative to the film [-]
       real(dp), intent(in) :: nearness
       type(periodic_orbit_t) :: orbit
+      type(periodic_orbit_t) :: other
       real(dp) :: images(size(state), 1), scale(size(state))
       integer :: period
       logical :: mapped
@@ -101,9 +103,10 @@ contains
          call map_states(problem, 1, search_accuracy, images, mapped)
          if (.not. mapped) return
          if (maxval(abs(images(:, 1) - state)*scale) > nearness*thinnest_film(problem, state)) cycle
-         orbit = newton(problem, period, state, scale, nearness)
-         if (orbit%period > 0) orbit = shortest(problem, orbit, scale, nearness)
-         if (orbit%period > 0) return
+         other = newton(problem, period, state, scale, nearness)
+         if (other%period > 0) other = shortest(problem, other, scale, nearness)
+         if (other%period > 0 .and. (orbit%period == 0 .or. attracting_period(other) > 0)) orbit = other
+         if (attracting_period(orbit) > 0) return
       end do
    end function find_periodic_orbit
 

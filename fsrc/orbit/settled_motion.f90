@@ -20,28 +20,33 @@ module settled_motion
       real(dp), allocatable :: states(:, :)
       !> [m/s2]
       real(dp) :: acceleration_rms = 0.0_dp
+      !> Films and velocities at the ends of many periods of an irregular one: number, period; not allocated: they are not known
+      real(dp), allocatable :: path(:, :)
    end type settled_motion_t
 
    public :: same_motion, known_of, near_states
 
 contains
 
-   !> Whether two motions of a problem are the same: they repeat after as many periods, from some period on with the same states,
-   !> and shake as much.
+   !> Whether two motions of a problem are the same: from some period on they have the same states, and they shake as much. One may
+   !> have been seen to repeat after a part of the period of the other: next to a doubling of the period its states differ by less
+   !> than those that count as one.
    pure logical function same_motion(problem, one, other) result(same)
       type(problem_t), intent(in) :: problem
       type(settled_motion_t), intent(in) :: one
       type(settled_motion_t), intent(in) :: other
       type(known_motions_t) :: measure
-      integer :: shift, i
+      integer :: longer, shift, i
 
       same = .false.
-      if (one%period == 0 .or. one%period /= other%period) return
+      if (one%period == 0 .or. other%period == 0) return
+      longer = max(one%period, other%period)
+      if (modulo(longer, min(one%period, other%period)) /= 0) return
       if (abs(one%acceleration_rms - other%acceleration_rms) > same_rms*max(one%acceleration_rms, other%acceleration_rms)) return
       measure = near_states(problem)
-      do shift = 0, one%period - 1
-         same = all([(are_near(problem, measure, one%states(:, i), other%states(:, modulo(i - 1 + shift, one%period) + 1)), &
-                      i=1, one%period)])
+      do shift = 0, longer - 1
+         same = all([(are_near(problem, measure, one%states(:, modulo(i - 1, one%period) + 1), &
+                               other%states(:, modulo(i - 1 + shift, other%period) + 1)), i=1, longer)])
          if (same) return
       end do
    end function same_motion
@@ -49,7 +54,7 @@ contains
    !> What counts as near of a problem, and the motions that are known of it, each at its place.
    pure type(known_motions_t) function known_of(problem, settled) result(known)
       type(problem_t), intent(in) :: problem
-      !> Those that do not repeat are reached by no state
+      !> Those that do not repeat are reached by no state, irregular ones by many
       type(settled_motion_t), intent(in) :: settled(:)
       integer :: i
 
@@ -57,6 +62,7 @@ contains
       allocate (known%motions(size(settled)))
       do i = 1, size(settled)
          known%motions(i)%states = settled(i)%states(:, :settled(i)%period)
+         if (allocated(settled(i)%path)) known%motions(i)%path = settled(i)%path
       end do
    end function known_of
 

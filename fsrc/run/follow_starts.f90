@@ -2,7 +2,8 @@
 !>
 !> A start is given up to a known stable motion once it was next to it, and to no other, at the ends of two periods running. A
 !> start whose periods come near each other is handed to Newton's method on the period map, and what that finds is a motion of its
-!> own unless it is one that is known.
+!> own unless it is one that is known. Where the motion of the scene itself has neither repeated nor proved to be irregular, it is
+!> followed on beyond its end like a start.
 module follow_starts
    use carried_loads, only: counts_as, thinnest_film
    use coexisting_motions, only: coexisting_motions_t, told_motion_t
@@ -10,7 +11,7 @@ module follow_starts
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use irregular_motion, only: follow_irregular
-   use irregular_states, only: are_of_one_motion
+   use irregular_states, only: are_of_one_motion, compared_after, compared_periods
    use judged_scene, only: judged_scene_t
    use kinds, only: dp
    use known_motions, only: reached_motion
@@ -37,10 +38,11 @@ module follow_starts
    !> Accuracy with which starts are followed: it decides where they lead, not what is told of it.
    real(dp), parameter :: start_accuracy = 1.0e-6_dp
    !> Periods of a round, after which it is seen where starts are, and most periods of a start.
-   integer, parameter :: round_periods = 4, most_periods = 120
-   !> Periods after which a start that does not repeat is held against an irregular motion that is known, by how many of the last
-   !> ones, and against how many of the scene's own.
-   integer, parameter :: compared_after = 48, compared_periods = 40, own_periods = 60
+   integer, parameter :: round_periods = 2, most_periods = 120
+   !> Periods of an irregular motion of the scene itself that starts are held against.
+   integer, parameter :: own_periods = 60
+   !> Most periods of a start after the first one that has had all of its own and neither repeats nor is known to be irregular.
+   integer, parameter :: later_periods = 64
    !> Longest period that is looked for, as by the search for periodic motions.
    integer, parameter :: longest_period = 8
    !> Distance between two periods, relative to the film, from which on Newton's method is tried, and by how much it has to fall
@@ -51,8 +53,10 @@ module follow_starts
    !> Seed of the starts that are drawn.
    integer, parameter :: seed = 1
 
-   !> What is known of the starts beside that of the scene.
+   !> What is known of the starts beside that of the scene, and last of the end of its own motion where that is followed on.
    type :: follower_t
+      !> Whether the last one is the end of the scene's own motion
+      logical :: with_own = .false.
       type(motion_state_t), allocatable :: states(:)
       !> Number of a state, ends of the last periods (the newest last), start
       real(dp), allocatable :: past(:, :, :)
@@ -86,7 +90,7 @@ contains
       type(motion_start_t), allocatable :: starts(:)
       type(follower_t) :: followers
       logical, allocatable :: is_unsettled(:)
-      integer :: count, i
+      integer :: count, others, i
 
       associate (problem => judged%resolved%problem, coexisting => judged%coexisting)
          coexisting%start_is_given = start_is_given(problem)
@@ -95,16 +99,20 @@ contains
          call note_own_motion(scene, ending, count > 1, judged, settled)
          if (count > 1) then
             starts = motion_starts(problem, count, seed)
-            call begin_starts(problem, starts(2:), followers)
+            call begin_starts(problem, starts(2:), coexisting%motions(1), followers)
             call follow(scene, judged, started, followers, settled, error)
             if (allocated(error) .or. must_stop()) return
             coexisting%starts_solved = count
-            is_unsettled = unsettled(followers, coexisting)
+            if (followers%with_own) call give_own_motion(coexisting, settled, followers%motion)
+            others = count - 1
+            is_unsettled = unsettled(followers%motion(:others), coexisting)
             coexisting%unsettled_starts = coexisting%unsettled_starts + size(pack(is_unsettled, is_unsettled))
             ! The own start is not among those that were followed here.
             coexisting%drawn_starts = size(pack(is_unsettled(chosen_starts:),.not. is_unsettled(chosen_starts:)))
             do i = 1, size(coexisting%motions)
-               coexisting%motions(i)%starts = coexisting%motions(i)%starts + size(pack(followers%motion, followers%motion == i))
+               associate (motion => followers%motion(:others))
+                  coexisting%motions(i)%starts = coexisting%motions(i)%starts + size(pack(motion, motion == i))
+               end associate
                call find_restart(problem, i, settled, coexisting%motions(i))
             end do
             coexisting%extra_periods = coexisting%extra_periods + sum(followers%periods)
@@ -113,17 +121,40 @@ contains
    end subroutine find_all_motions
 
    !> Starts whose motions were not seen to repeat.
-   pure function unsettled(followers, coexisting) result(is_unsettled)
-      type(follower_t), intent(in) :: followers
+   pure function unsettled(motion, coexisting) result(is_unsettled)
+      !> Motion of each start, 0: not known
+      integer, intent(in) :: motion(:)
       type(coexisting_motions_t), intent(in) :: coexisting
-      logical :: is_unsettled(size(followers%motion))
+      logical :: is_unsettled(size(motion))
       integer :: i
 
-      is_unsettled = followers%motion == 0
+      is_unsettled = motion == 0
       do i = 1, size(is_unsettled)
-         if (followers%motion(i) > 0) is_unsettled(i) = coexisting%motions(followers%motion(i))%period == 0
+         if (motion(i) > 0) is_unsettled(i) = coexisting%motions(motion(i))%period == 0
       end do
    end function unsettled
+
+   !> Where the motion of the scene itself, followed on, has come to one that is told, it is that one: it takes its place.
+   subroutine give_own_motion(coexisting, settled, motion)
+      type(coexisting_motions_t), intent(inout) :: coexisting
+      type(settled_motion_t), allocatable, intent(inout) :: settled(:)
+      !> Motion of each start, that of the own one last
+      integer, intent(inout) :: motion(:)
+      integer, allocatable :: order(:)
+      integer :: own, i
+
+      own = motion(size(motion))
+      if (own <= 1) return
+      order = [own, pack([(i, i=2, size(settled))], [(i, i=2, size(settled))] /= own)]
+      coexisting%motions(own)%from_own_start = .true.
+      coexisting%motions(own)%starts = coexisting%motions(own)%starts + 1
+      coexisting%unsettled_starts = merge(1, 0, coexisting%motions(own)%period == 0)
+      coexisting%motions = coexisting%motions(order)
+      settled = settled(order)
+      do i = 1, size(motion)
+         motion(i) = findloc(order, motion(i), dim=1)
+      end do
+   end subroutine give_own_motion
 
    !> The motion of the scene itself is the first one.
    subroutine note_own_motion(scene, ending, for_others, judged, settled)
@@ -186,27 +217,31 @@ contains
    end function settled_of
 
    !> Starts that have not moved yet.
-   subroutine begin_starts(problem, starts, followers)
+   subroutine begin_starts(problem, starts, own, followers)
       type(problem_t), intent(in) :: problem
       type(motion_start_t), intent(in) :: starts(:)
+      !> The motion of the scene itself, as far as it came
+      type(told_motion_t), intent(in) :: own
       type(follower_t), intent(out) :: followers
       integer :: i, n
 
-      n = size(starts)
+      followers%with_own = own%period == 0 .and. own%class == class_irregular_so_far
+      n = size(starts) + merge(1, 0, followers%with_own)
       allocate (followers%states(n), followers%failed(n), followers%tried(n))
       allocate (followers%past(state_size(problem), longest_period + 1, n), source=0.0_dp)
       allocate (followers%history(of_velocity, most_periods + round_periods, n), source=0.0_dp)
       allocate (followers%periods(n), followers%motion(n), source=0)
       followers%failed = .false.
       followers%tried = huge(1.0_dp)
-      do i = 1, n
+      do i = 1, size(starts)
          followers%states(i) = state_of_start(problem, starts(i))
       end do
+      if (followers%with_own) followers%states(n) = motion_state_t(numbers=own%state)
    end subroutine begin_starts
 
    !> Follow all starts until each is on a known motion, or has had its periods. Where the motion of the scene is irregular, a start
-   !> whose states are like those of that motion has it; else the first start that does not repeat has all its periods, while others
-   !> wait for what it is.
+   !> whose states are like those of that motion has it; else the first start that does not repeat, the motion of the scene itself
+   !> before others, has all its periods, while others wait for what it is.
    subroutine follow(scene, judged, started, followers, settled, error)
       type(scene_t), intent(in) :: scene
       type(judged_scene_t), intent(inout) :: judged
@@ -218,14 +253,17 @@ contains
       real(dp), allocatable :: irregular(:, :)
       integer, allocatable :: left(:)
       logical :: is_left(size(followers%motion)), none_is_irregular
-      integer :: most, first, i
+      integer :: most, first, last, i
 
       most = min(most_periods, max(scene%solver%periods, longest_period + 1))
       none_is_irregular = .false.
       if (judged%rattle%class == class_irregular) call follow_own(judged, irregular)
       do
-         is_left = followers%motion == 0 .and. .not. followers%failed .and. followers%periods < most
-         first = findloc(followers%motion == 0 .and. .not. followers%failed, .true., dim=1)
+         is_left = followers%motion == 0 .and. .not. followers%failed
+         first = findloc(is_left, .true., dim=1)
+         last = size(is_left)
+         if (followers%with_own .and. is_left(last)) first = last
+         is_left = is_left .and. followers%periods < merge(min(most, later_periods), most, none_is_irregular)
          if (.not. (allocated(irregular) .or. none_is_irregular)) &
             is_left = is_left .and. (followers%periods < compared_after .or. [(i == first, i=1, size(is_left))])
          left = pack([(i, i=1, size(is_left))], is_left)

@@ -3,7 +3,7 @@
 module irregular_motion
    use verify_scene, only: nearby_orbit
    use engine, only: ending_t
-   use lyapunov, only: follow_neighbours, parting_t
+   use lyapunov, only: follow_neighbours, parting_t, path_t
    use periodic_orbit, only: attracting_period, periodic_orbit_t
    use problem, only: problem_t
    use rattle_class, only: class_irregular_so_far, note_orbit, note_parting, rattle_verdict_t
@@ -19,7 +19,7 @@ contains
 
    !> Look for a periodic motion at the ends of motions of which more has to be known, and follow those that are irregular still.
    !> After a signal to stop the answers are of no use.
-   subroutine follow_irregular(problems, endings, verdicts, repeat_after)
+   subroutine follow_irregular(problems, endings, verdicts, repeat_after, paths)
       !> What moves
       type(problem_t), intent(in) :: problems(:)
       !> How the motions ended
@@ -28,8 +28,11 @@ contains
       type(rattle_verdict_t), intent(inout) :: verdicts(:)
       !> Periods after which motions near their ends repeat, 0 where none is known
       integer, intent(inout) :: repeat_after(:)
+      !> Where those that prove to be irregular went
+      type(path_t), intent(inout), optional :: paths(:)
       type(periodic_orbit_t) :: orbit
       type(parting_t), allocatable :: partings(:)
+      type(path_t), allocatable :: passed(:)
       integer, allocatable :: left(:)
       integer :: i
 
@@ -44,12 +47,13 @@ contains
       end do
       left = pack(left, verdicts(left)%class == class_irregular_so_far)
       if (size(left) == 0) return
-      allocate (partings(size(left)))
+      allocate (partings(size(left)), passed(size(left)))
       call unlock_texts()
-      call follow_neighbours(problems(left), endings(left)%motion_state_t, partings)
+      call follow_neighbours(problems(left), endings(left)%motion_state_t, partings, passed)
       call lock_texts()
       do i = 1, size(left)
          call note_parting(verdicts(left(i)), partings(i))
+         if (present(paths)) paths(left(i)) = passed(i)
       end do
    end subroutine follow_irregular
 

@@ -8,6 +8,10 @@ module irregular_states
    !> Distance that one of a hundred pairs of samples of one distribution exceeds, in units of sqrt(1/n + 1/m).
    real(dp), parameter :: rare_distance = 1.63_dp
 
+   !> Periods after which a start that does not repeat is held against an irregular motion that is known, and by how many of the last
+   !> ones.
+   integer, parameter, public :: compared_after = 32, compared_periods = 24
+
    public :: are_of_one_motion
 
 contains
