@@ -6,7 +6,8 @@
 !> orbits are held against each other, beginning with whichever of their periods fits best.
 module campaign_verification
    use doubt, only: doubt_t, first_doubt, is_doubted
-   use verification, only: verification_t, compare_windows, doubt_behind, doubt_of_closing, doubt_of_return, doubt_of_impacts, &
+   use verification, only: verification_t, compare_windows, doubt_behind, doubt_of_closing, doubt_of_flight, doubt_of_return, &
+      doubt_of_impacts, &
       windows_behind
    use verify_scene, only: nearby_orbit, tighten
    use engine, only: motion_state_t, request_t, start_of
@@ -119,7 +120,8 @@ contains
       associate (record => group%records(place), tight_record => tight%records(tight_place), verdict => group%verdicts(place), &
                  tight_verdict => tight%verdicts(tight_place), problem => resolved%problem, &
                  samples => group%endings(place)%samples, tight_samples => tight%endings(tight_place)%samples)
-         unclosed = first_doubt([doubt_of_closing(record, problem%frequency, problem%mass, resolved%noise_floor), &
+         unclosed = first_doubt([doubt_of_flight(tight_record, problem%contact%film%radius), &
+                                 doubt_of_closing(record, problem%frequency, problem%mass, resolved%noise_floor), &
                                  doubt_of_closing(tight_record, problem%frequency, problem%mass, tight_noise), &
                                  doubt_of_impacts(verdict, tight_verdict, samples/tighter%samples_per_period), &
                                  doubt_of_return(verdict, samples/tighter%samples_per_period, &

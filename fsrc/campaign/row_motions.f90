@@ -325,8 +325,7 @@ contains
       !> Whether that one repeats
       logical, intent(in) :: settled
       type(row_motions_t), intent(inout) :: found
-      integer, allocatable :: order(:)
-      integer :: i
+      integer :: order(size(found%settled)), i
 
       order = [known, pack([(i, i=2, size(found%settled))], [(i, i=2, size(found%settled))] /= known)]
       found%settled = found%settled(order)

@@ -140,8 +140,7 @@ contains
       type(settled_motion_t), allocatable, intent(inout) :: settled(:)
       !> Motion of each start, that of the own one last
       integer, intent(inout) :: motion(:)
-      integer, allocatable :: order(:)
-      integer :: own, i
+      integer :: order(size(settled)), own, i
 
       own = motion(size(motion))
       if (own <= 1) return
@@ -172,12 +171,14 @@ contains
       if (orbit%period == 0 .and. for_others .and. .not. scene%spectrum%verify) &
          orbit = nearby_orbit(judged%resolved%problem, ending)
       own%class = judged%rattle%class
+      ! Of an irregular motion the tighter solution may have come to a motion that repeats; this one has not.
+      if (own%class == class_irregular) orbit = periodic_orbit_t()
       own%period = attracting_period(orbit)
       own%state = ending%numbers
       if (own%period > 0) then
          own%state = orbit%state
          own%floquet_modulus = abs(orbit%multipliers(1))
-      else if (judged%repeats_after > 0 .and. orbit%period == 0) then
+      else if (judged%repeats_after > 0 .and. orbit%period == 0 .and. own%class /= class_irregular) then
          own%period = judged%repeats_after
       end if
       if (judged%impacts%exists) own%verdict = verdict_of(judged%resolved%problem, judged%extremes, judged%impacts)

@@ -3,7 +3,8 @@
 !> multipliers.
 module verify_scene
    use doubt, only: doubt_samples, doubt_t, doubt_tighter_ending, first_doubt, is_doubted
-   use verification, only: verification_t, compare_windows, doubt_behind, doubt_of_closing, doubt_of_return, doubt_of_impacts, &
+   use verification, only: verification_t, compare_windows, doubt_behind, doubt_of_closing, doubt_of_flight, doubt_of_return, &
+      doubt_of_impacts, &
       severity_error, no_verification, windows_behind
    use engine, only: ending_t, motion_state_t, start_of
    use errors, only: error_t
@@ -87,7 +88,8 @@ contains
       end if
       call note_known(tight_verdict, verdict)
       associate (problem => resolved%problem)
-         unclosed = first_doubt([doubt_of_closing(window%record, problem%frequency, problem%mass, resolved%noise_floor), &
+         unclosed = first_doubt([doubt_of_flight(tight%record, problem%contact%film%radius), &
+                                 doubt_of_closing(window%record, problem%frequency, problem%mass, resolved%noise_floor), &
                                  doubt_of_closing(tight%record, problem%frequency, problem%mass, &
                                                   resolved%noise_floor_at(accuracy)), &
                                  doubt_of_samples(scene, verdict, tight, tight_verdict), &

@@ -36,6 +36,8 @@ module doubt
    integer, parameter, public :: doubt_distortion = 15, doubt_distortion_bound = 16
    !> The least count of harmonics; the least and the most
    integer, parameter, public :: doubt_count_bound = 17, doubt_count = 18
+   !> The largest film, beyond what the model means [m]
+   integer, parameter, public :: doubt_flight = 19
 
    type, public :: doubt_t
       integer :: code = doubt_none
@@ -118,6 +120,9 @@ contains
                        ' harmonics, and beyond the highest resolved one there may be more.'
          case (doubt_count)
             sentence = 'Within their errors there are '//integer_text(counts(1))//' to '//integer_text(counts(2))//' harmonics.'
+         case (doubt_flight)
+            sentence = 'The film grows to '//short_text(numbers(1), 3)//' m, beyond a tenth of the radius: '// &
+                       'the film law means nothing there.'
          case default
             continue
          end select

@@ -1,12 +1,13 @@
 !> How far a verdict can be trusted: the window of a scene held against the same window solved tighter.
 module verification
    use doubt, only: doubt_class, doubt_class_behind, doubt_count, doubt_count_bound, doubt_distortion, doubt_distortion_bound, &
-      doubt_ending_behind, doubt_energy, doubt_film, doubt_fraction_close, doubt_fraction_error, doubt_impacts, &
+      doubt_ending_behind, doubt_energy, doubt_film, doubt_flight, doubt_fraction_close, doubt_fraction_error, doubt_impacts, &
       doubt_largest_harmonic, doubt_momentum, doubt_parting, doubt_return, doubt_sentence, doubt_t, is_doubted, parting_sentence
    use kinds, only: dp
    use vibration_severity, only: vibration_severity_t
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_film
    use problem, only: of_velocity
+   use regime_check, only: gap_too_wide, model_limit
    use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, is_off_harmonics, rattle_verdict_t
    use scene_status, only: is_success
    use scene_types, only: spectrum_choice_t
@@ -60,7 +61,7 @@ module verification
    real(dp), parameter :: least_reversals = 8.0_dp
 
    public :: compare_windows, severity_error, no_verification, verification_word, verification_sentence, &
-             doubt_of_closing, doubt_of_impacts, &
+             doubt_of_closing, doubt_of_flight, doubt_of_impacts, &
              doubt_of_return, windows_behind, doubt_behind
 
 contains
@@ -227,6 +228,20 @@ contains
          doubt = doubt_t(doubt_energy, numbers=-[record%film_work, record%force_work])
       end if
    end function doubt_of_closing
+
+   !> Whether a motion flies beyond what the model means.
+   pure type(doubt_t) function doubt_of_flight(record, radius) result(doubt)
+      !> Record of the window
+      type(window_record_t), intent(in) :: record
+      !> Equivalent radius [m]
+      real(dp), intent(in) :: radius
+
+      doubt = doubt_t()
+      if (record%periods == 0 .or. .not. record%wants(seen_film)) return
+      associate (largest => record%highest(seen_film)%value)
+         if (model_limit(radius, largest, radius) == gap_too_wide) doubt = doubt_t(doubt_flight, numbers=[largest, radius])
+      end associate
+   end function doubt_of_flight
 
    !> Whether a window is too short to tell an irregular motion; of other motions there is no doubt.
    pure type(doubt_t) function doubt_of_impacts(verdict, tight_verdict, periods) result(doubt)

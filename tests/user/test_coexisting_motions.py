@@ -156,6 +156,71 @@ def test_one_motion_is_told_with_what_may_be_missed(run, scene_text, tmp_path: P
         assert told["loudest_acceleration_rms"] == told["acceleration_rms"]
 
 
+def test_starts_end_early_on_a_known_irregular_motion(run, repository: Path, tmp_path: Path) -> None:
+    """After 32 periods if all are on it; a motion beside it that repeats is told nevertheless."""
+    for speed, motions in ((1200.0, 1), (2400.0, 2)):
+        ended = run(
+            *("--set", f"shaft.speed_rpm={speed}", "--set", "oil.temperature_celsius=100.0"),
+            *("--set", "solver.periods=200", "--overwrite"),
+            *("--output", tmp_path, repository / "input" / "two_motions.nml"),
+            cwd=tmp_path,
+        )
+        assert ended.returncode == 0, ended.stderr
+        told = summary_of(tmp_path / "two_motions.summary.nml")
+        assert (told["rattle_class"], told["motions"]) == ("irregular", motions)
+        # 28 starts of 32 periods, and 60 of the motion that they are held against; of 120 each they had 3360.
+        assert told["start_periods"] < 1100
+        assert told["unsettled_starts"] == 30 - motions
+        words = "of 29 starts the motion does not repeat, or not yet"
+        if motions == 1:
+            assert told["motions_text"] == f"one motion from 29 starts; {words}"
+        else:
+            assert "subharmonic" in told["motions_text"] and "; of 28 starts" in told["motions_text"]
+
+
+def test_a_motion_of_six_periods_is_told_once(run, repository: Path, tmp_path: Path) -> None:
+    """From rest it is known to a window of four periods; the unstable motion of three is beside it."""
+    text = (repository / "input" / "gearbox_map.nml").read_text()
+    first = text.index("&gear\n")
+    text = text[: text.index("&gear\n", first + 1)] + text[text.index("&shaft\n") : text.index("&campaign\n")]
+    (tmp_path / "gearbox_run_up.csv").write_bytes((repository / "input" / "gearbox_run_up.csv").read_bytes())
+    text = text.replace("task = 'campaign'", "task = 'motion'").replace("periods = 60 ", "periods = 200 ")
+    (tmp_path / "scene.nml").write_text(
+        text.replace("temperature_celsius = 60.0", "temperature_celsius = 100.0")
+    )
+    ended = run("scene.nml", cwd=tmp_path, timeout=600.0)
+    assert ended.returncode == 0, ended.stderr
+    told = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert (told["unsettled_starts"], told["rattle_class"]) == (0, "subharmonic")
+    assert (told["orbit_period"], told["orbit_stability"]) == (6, "stable")
+    frame = package.read(tmp_path / "results" / "scene.rattle").motions.frame()
+    assert (frame.orbit_period == 6).tolist() == [True] + [False] * (len(frame) - 1)
+    assert frame.starts[0] > 20
+
+
+def test_a_start_that_flies_off_is_not_verified(run, scene_text, tmp_path: Path) -> None:
+    """From 10 mm at 100 m/s the tooth is metres away: there its class says nothing, in a row neither."""
+    start = {"law": "'iso-viscous'", "initial_film": "1e-2", "initial_velocity": "100.0"}
+    solver = {"method": "'taylor'", "steps_per_period": None, "periods": "40"}
+    (tmp_path / "scene.nml").write_text(scene_text(film=start, solver=solver))
+    assert run("scene.nml", cwd=tmp_path).returncode == 0
+    told = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert told["film_maximum"] > 1.0 and told["model_limit"] == "too_wide"
+    assert told["verification"] == "uncertain"
+    assert "beyond a tenth of the radius: the film law means nothing there." in told["verification_text"]
+    rows = {
+        "vary": "'film.initial_velocity'",
+        "values(:, 1)": "0.0, 100.0",
+        "record": "'rattle_class', 'verified'",
+    }
+    start["initial_film"] = "1e-6"
+    text = scene_text(scene={"task": "'campaign'"}, film=start, solver=solver, campaign=rows)
+    (tmp_path / "rows.nml").write_text(text)
+    ended = run("rows.nml", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    assert package.read(tmp_path / "results" / "rows.rattle")["verified"].tolist() == [1.0, 0.0]
+
+
 def test_one_start_is_the_same_series(run, scene_text, tmp_path: Path) -> None:
     (tmp_path / "scene.nml").write_text(scene_text(**LOOSE))
     rows = []
