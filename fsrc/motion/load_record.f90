@@ -23,7 +23,7 @@ module load_record
    type, public :: load_record_t
       !> What is asked for: loads above this multiple of F_max are impacts; 0: nothing is recorded
       real(dp) :: impact_limit = 0.0_dp
-      type(impact_watch_t) :: flanks(2)
+      type(impact_watch_t) :: flanks(2) = impact_watch_t()
       !> Load below which the drive film is unloaded [N], and for how long [periods]
       real(dp) :: unloaded_level = 0.0_dp
       real(dp) :: unloaded = 0.0_dp
@@ -37,11 +37,9 @@ contains
    pure subroutine start_loads(problem, record)
       type(problem_t), intent(in) :: problem
       type(load_record_t), intent(inout) :: record
-      type(load_record_t) :: blank
       real(dp) :: largest_force
 
-      blank%impact_limit = record%impact_limit
-      record = blank
+      record = load_record_t(impact_limit=record%impact_limit)
       largest_force = largest_applied_force(problem)
       ! Without a force there is nothing that a load could exceed.
       if (largest_force >= least_static_load) then
