@@ -363,11 +363,13 @@ contains
    pure function verification_sentence(verification) result(sentence)
       !> A verification that exists
       type(verification_t), intent(in) :: verification
-      character(:), allocatable :: sentence
+      character(:), allocatable :: sentence, tighter
 
       sentence = doubt_sentence(verification%doubt)
       if (.not. verification%verified) return
-      sentence = 'The class is verified: a second solution with a tighter tolerance agrees, and no limit lies within the errors.'
+      tighter = 'a tighter tolerance'
+      if (verification%pressure_error >= 0.0_dp) tighter = 'twice the nodes and '//tighter
+      sentence = 'The class is verified: a second solution with '//tighter//' agrees, and no limit lies within the errors.'
       if (verification%doubt%parting%periods > 0) &
          sentence = sentence//' '//parting_sentence(verification%doubt%parting)//' It may settle later all the same.'
    end function verification_sentence

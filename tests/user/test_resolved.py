@@ -58,6 +58,7 @@ def test_a_gear_is_near_its_closure_and_within_its_errors() -> None:
     solved = package.run(GEAR)
     told, series = solved.summary, solved.result
     assert told["verification"] == "verified" and told["status"] == "steady"
+    assert "with twice the nodes and a tighter tolerance agrees" in told["verification_text"]
     finer = package.run(GEAR, set={"film.nodes": 64, "solver.accuracy": 1e-4}).summary
     for name in ("acceleration_maximum", "acceleration_minimum", "film_minimum", "film_maximum"):
         assert abs(told[name] - finer[name]) <= told[f"{name}_error"] + finer[f"{name}_error"], name
