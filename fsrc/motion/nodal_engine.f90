@@ -238,11 +238,12 @@ contains
       type(gear_t), intent(in) :: gear
       type(motion_t), intent(out) :: motion
       logical, intent(out) :: found
-      type(step_weights_t), parameter :: at_rest = step_weights_t()
+      type(step_weights_t) :: at_rest
       real(dp) :: start(state_size(problem)), loads(2), target, load(2), by_gap(2), change, changes, correction, share
       integer :: flank, pass, j
       logical :: exists
 
+      at_rest = step_weights_t()
       start = initial_state(problem)
       found = problem%initial_film > 0.0_dp
       if (.not. found) return
