@@ -24,7 +24,7 @@ module resolved_scene
    type, public :: resolved_scene_t
       type(problem_t) :: problem = problem_t()
       !> Drag torque on a loose gear of &gear
-      type(drag_t) :: drag
+      type(drag_t) :: drag = drag_t()
       !> Arm by which a force along the normal of the flanks turns the loose gear of &gear [m]; 0: there is none
       real(dp) :: gear_arm = 0.0_dp
       !> Film that carries Q + m g [m]; 0 where no rigid film does: then nothing that rests on it is known

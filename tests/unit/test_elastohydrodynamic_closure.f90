@@ -270,7 +270,8 @@ contains
                if (i /= 3) worst_film = max(worst_film, abs(by_gap(i)*(1.0_dp - by_film_alone) - by_film_alone), &
                                             abs(by_load(i)*(1.0_dp - by_film_alone)/by_load_alone - 1.0_dp))
             end do
-            film(5) = closure%film_unit
+            ! No film of a gap that is too small.
+            where (film < 0.0_dp) film = closure%film_unit
             film = film/closure%film_unit
             load = load/closure%load_unit
             call closure_velocities(closure, most_films, film, load, velocity, by_film, by_load, outcome)
