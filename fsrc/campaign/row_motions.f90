@@ -325,9 +325,11 @@ contains
       !> Whether that one repeats
       logical, intent(in) :: settled
       type(row_motions_t), intent(inout) :: found
-      integer :: order(size(found%settled)), i
+      !> One less than there are: that of the motion from rest was no motion of its own
+      integer :: order(size(found%settled) - 1), others(size(found%settled) - 1), i
 
-      order = [known, pack([(i, i=2, size(found%settled))], [(i, i=2, size(found%settled))] /= known)]
+      others = [(i, i=2, size(found%settled))]
+      order = [known, pack(others, others /= known)]
       found%settled = found%settled(order)
       found%told%motions = found%told%motions(order)
       found%told%motions(1)%from_own_start = .true.

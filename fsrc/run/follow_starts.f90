@@ -140,11 +140,13 @@ contains
       type(settled_motion_t), allocatable, intent(inout) :: settled(:)
       !> Motion of each start, that of the own one last
       integer, intent(inout) :: motion(:)
-      integer :: order(size(settled)), own, i
+      !> One less than there are: that of the scene itself was no motion of its own
+      integer :: order(size(settled) - 1), others(size(settled) - 1), own, i
 
       own = motion(size(motion))
       if (own <= 1) return
-      order = [own, pack([(i, i=2, size(settled))], [(i, i=2, size(settled))] /= own)]
+      others = [(i, i=2, size(settled))]
+      order = [own, pack(others, others /= own)]
       coexisting%motions(own)%from_own_start = .true.
       coexisting%motions(own)%starts = coexisting%motions(own)%starts + 1
       coexisting%unsettled_starts = merge(1, 0, coexisting%motions(own)%period == 0)

@@ -167,7 +167,8 @@ def test_starts_end_early_on_a_known_irregular_motion(run, repository: Path, tmp
         )
         assert ended.returncode == 0, ended.stderr
         told = summary_of(tmp_path / "two_motions.summary.nml")
-        assert (told["rattle_class"], told["motions"]) == ("irregular", motions)
+        # Whether the exponent of a chaotic motion is above its error is a matter of the last digits.
+        assert told["rattle_class"].startswith("irregular") and told["motions"] == motions
         # 28 starts of 32 periods, and 60 of the motion that they are held against; of 120 each they had 3360.
         assert told["start_periods"] < 1100
         assert told["unsettled_starts"] == 30 - motions
