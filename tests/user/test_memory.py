@@ -162,7 +162,9 @@ def test_rows_do_not_depend_on_how_many_scenes_fit(run, scene_text, tmp_path: Pa
 
 def test_rows_do_not_depend_on_memory(run, scene_text, tmp_path: Path) -> None:
     """Where there is none for the samples of a row the campaign ends, and goes on where there is more."""
-    (tmp_path / "scene.nml").write_text(grid(scene_text, 24, 24))
+    # Few scenes, but windows of which more samples take more than all of them.
+    long_window = {"solver": {**BASE["solver"], "periods": "40"}, "spectrum": {"periods": "32"}}
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 8, 8, **long_window))
     threads = ("--threads", "2")
     undisturbed = solve(run, tmp_path, *threads).read_bytes()
     words = []
