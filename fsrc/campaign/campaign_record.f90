@@ -111,14 +111,28 @@ contains
       real(dp), intent(in) :: number
       !> With all other columns
       real(dp), intent(inout) :: row(:)
-      integer :: i, column
+      integer :: columns(size(scene%campaign%record)), i
 
-      column = size(row)
-      do i = size(scene%campaign%record), 1, -1
-         if (scene%campaign%record(i) == code) row(column) = number
-         column = column - merge(recorded_numbers, 1, quantity_table(scene%campaign%record(i))%kind == a_list)
+      columns = last_columns(scene, size(row))
+      do i = 1, size(columns)
+         if (scene%campaign%record(i) == code) row(columns(i)) = number
       end do
    end subroutine record_number
+
+   !> Last column of each recorded quantity: these stand at the end of a row.
+   pure function last_columns(scene, row_size) result(columns)
+      type(scene_t), intent(in) :: scene
+      !> Columns of a row
+      integer, intent(in) :: row_size
+      integer :: columns(size(scene%campaign%record))
+      integer :: i, column
+
+      column = row_size
+      do i = size(columns), 1, -1
+         columns(i) = column
+         column = column - merge(recorded_numbers, 1, quantity_table(scene%campaign%record(i))%kind == a_list)
+      end do
+   end function last_columns
 
    !> Put what is known of all motions of a scene into its row.
    pure subroutine record_motions(scene, judged, row)
@@ -128,13 +142,12 @@ contains
       type(judged_scene_t), intent(in) :: judged
       !> With all other columns
       real(dp), intent(inout) :: row(:)
-      integer :: i, column
+      integer :: columns(size(scene%campaign%record)), i
 
-      column = size(row)
-      do i = size(scene%campaign%record), 1, -1
+      columns = last_columns(scene, size(row))
+      do i = 1, size(columns)
          associate (quantity => quantity_table(scene%campaign%record(i)))
-            if (any(quantity%need == [needs_starts, needs_motion_verdicts])) row(column) = quantity_value(quantity%code, judged)
-            column = column - merge(recorded_numbers, 1, quantity%kind == a_list)
+            if (any(quantity%need == [needs_starts, needs_motion_verdicts])) row(columns(i)) = quantity_value(quantity%code, judged)
          end associate
       end do
    end subroutine record_motions

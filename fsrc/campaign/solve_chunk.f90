@@ -3,7 +3,7 @@ module solve_chunk
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use campaign_verification, only: verify_group, compared
    use campaign_record, only: record_motions, record_number, record_row
-   use automatic_model, only: nodes_stopped, reason_for_nodes, reason_t, scene_in_nodes, solve_in_nodes_alone
+   use automatic_model, only: nodes_stopped, reason_for_nodes, reason_t, scene_in_nodes, solve_in_memory
    use errors, only: error_t
    use engine, only: asks_for_same, ending_t, motion_state_t, request_t, reserved_periods, start_of
    use judge_scene, only: note_record, note_regime
@@ -261,7 +261,7 @@ contains
       single%solver%kept_per_period = scene%campaign%samples_per_period
       single%output%series = .false.
       single%spectrum%verify = needed(needs_verification)
-      call solve_in_nodes_alone(single, judged, error)
+      call solve_in_memory(single, judged, error)
       if (must_stop() .or. allocated(error)) return
       if (nodes_stopped(judged%status)) then
          call record_number(scene, quantity_film_model, film_model_stopped, row)

@@ -35,7 +35,7 @@ module automatic_model
       real(dp) :: load = 0.0_dp, limit = 0.0_dp, error = 0.0_dp
    end type reason_t
 
-   public :: choose_model, reason_for_nodes, solve_in_nodes_alone, scene_in_nodes, nodes_stopped
+   public :: choose_model, reason_for_nodes, solve_in_memory, scene_in_nodes, nodes_stopped
 
 contains
 
@@ -56,7 +56,7 @@ contains
       chosen%film%automatic = .false.
       tried = in_memory(chosen)
       tried%spectrum%verify = .false.
-      call solve_by_closure(tried, judged, error)
+      call solve_in_memory(tried, judged, error)
       if (allocated(error)) return
       reason = reason_for_nodes(judged, scene%spectrum%impact_limit)
       if (reason%code == 0) then
@@ -67,7 +67,7 @@ contains
       tried = scene_in_nodes(chosen)
       tried = in_memory(tried)
       tried%spectrum%verify = .false.
-      call solve_in_nodes_alone(tried, judged, error)
+      call solve_in_memory(tried, judged, error)
       if (allocated(error)) return
       if (nodes_stopped(judged%status)) then
          chosen%film%told = 'by the closure, as films in nodes stopped ('//status_name(judged%status)//'); in nodes because '//why
@@ -174,32 +174,9 @@ contains
       quiet%output%profiles = .false.
    end function in_memory
 
-   !> Solve a scene in nodes and judge it, as a single scene is, without any file.
-   subroutine solve_in_nodes_alone(scene, judged, error)
-      !> Its films are in nodes, and it writes no series
-      type(scene_t), intent(in) :: scene
-      type(judged_scene_t), intent(out) :: judged
-      !> Set if there is not enough memory
-      type(error_t), allocatable, intent(out) :: error
-      type(sample_recorder_t) :: recorder
-      type(window_record_t) :: record
-      type(unwatched_t) :: nobody
-      type(ending_t) :: ending
-
-      judged%resolved = resolve(scene)
-      call recorder%open(scene, judged%resolved%problem, '', 0, error)
-      if (allocated(error)) return
-      call unlock_texts()
-      call choice_of(scene, judged%resolved%problem, judged%nodal)
-      call solve_nodal_scene(scene, judged%resolved%problem, judged%nodal, request_of(scene), recorder, nobody, ending, &
-                             record, error)
-      call lock_texts()
-      call note_ending(ending, judged)
-      if (.not. allocated(error)) call judge(scene, recorder, record, ending, judged, error)
-   end subroutine solve_in_nodes_alone
-
-   !> The same by the closure.
-   subroutine solve_by_closure(scene, judged, error)
+   !> Solve a scene and judge it, as a single scene is, without any file.
+   subroutine solve_in_memory(scene, judged, error)
+      !> Its films are in nodes or those of the closure, and it writes no series
       type(scene_t), intent(in) :: scene
       type(judged_scene_t), intent(out) :: judged
       !> Set if there is not enough memory
@@ -211,13 +188,20 @@ contains
       type(checkpoint_t) :: state
 
       judged%resolved = resolve(scene)
-      call recorder%open(scene, judged%resolved%problem, '', 0, error)
-      if (allocated(error)) return
-      call unlock_texts()
-      call solve_controlled(judged%resolved%problem, request_of(scene), recorder, nobody, state, ending, record, error)
-      call lock_texts()
+      associate (problem => judged%resolved%problem)
+         call recorder%open(scene, problem, '', 0, error)
+         if (allocated(error)) return
+         call unlock_texts()
+         if (scene%film%model == model_resolved) then
+            call choice_of(scene, problem, judged%nodal)
+            call solve_nodal_scene(scene, problem, judged%nodal, request_of(scene), recorder, nobody, ending, record, error)
+         else
+            call solve_controlled(problem, request_of(scene), recorder, nobody, state, ending, record, error)
+         end if
+         call lock_texts()
+      end associate
       call note_ending(ending, judged)
       if (.not. allocated(error)) call judge(scene, recorder, record, ending, judged, error)
-   end subroutine solve_by_closure
+   end subroutine solve_in_memory
 
 end module automatic_model
