@@ -246,6 +246,7 @@ bench: bench-build
 	@$(NATIVE_BUILD)/bench_film
 	$(call against_peers,work_precision)
 	@$(PYTHON) tests/benchmarks/bench_skips.py $(NATIVE_BUILD)/rattle
+	@$(PYTHON) tests/benchmarks/bench_drag.py $(NATIVE_BUILD)/rattle
 	@$(PEER_ENV)/bin/python $(PEERS)/bench_campaign.py $(NATIVE_BUILD)/rattle
 	@$(PEER_ENV)/bin/python $(PEERS)/bench_gearbox.py $(NATIVE_BUILD)/rattle --count 9,9,7,7 --sample 32
 	@$(MAKE) --no-print-directory bench-changed
@@ -381,6 +382,8 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(PYTHON) tests/stress/newmark_outcome_map.py $(PICTURE_RUNS)/newmark_outcomes.csv $(PICTURES)/newmark_outcomes.png
 	@$(PYTHON) scripts/plot.py film-fit --overwrite --output $(PICTURE_RUNS) > $(PICTURE_RUNS)/film_fit.txt
 	@cp $(PICTURE_RUNS)/film_fit.png $(PICTURES)/film_fit.png
+	@$(PYTHON) scripts/report.py --overwrite --output $(PICTURE_RUNS)/gearbox_map.html $(PICTURE_RUNS)/gearbox_map.rattle
+	@$(PYTHON) scripts/report.py --overwrite --output $(PICTURE_RUNS)/loose_gear.html $(PICTURE_RUNS)/loose_gear.rattle
 
 pages: $(BUILD)/rattle
 	@$(BUILD)/rattle --keys > $(BUILD)/tables.md

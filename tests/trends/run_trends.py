@@ -1,8 +1,9 @@
-"""What the program says of the trends that test stands report, for the pairs of a gearbox at idle.
+"""What the program says of the trends that test stands report, for the pairs of a gearbox at idle, and of
+what the paper calls idle and creep.
 
     python tests/trends/run_trends.py
 
-Writes trends.png and the table of README.md beside this file.
+Writes trends.png and the tables of README.md beside this file.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from scipy.stats import spearmanr
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 
 import rattle
+from rattle.codes import CLASSES, CODES, spoken
 from rattle.figures import style
 from rattle.figures.campaign_look import plain_log_ticks
 
@@ -41,7 +43,8 @@ AXES = (
     ("backlash", "gear.backlash", (20.0, 300.0), 1e-6, r"Backlash [$\mathrm{\mu}$m]"),
     ("drag", "gear.drag_scale", (0.25, 4.0), 1.0, "Drag over computed [-]"),
 )
-BEGIN, END = "<!-- table -->", "<!-- end of table -->"
+MAP = ROOT / "input" / "map.nml"
+LAWS = ("iso-viscous", "piezo-viscous")
 
 
 def solve(key: str, values: np.ndarray) -> rattle.Campaign:
@@ -69,6 +72,36 @@ def trend(values: np.ndarray, numbers: np.ndarray) -> str:
     rank = spearmanr(values[usable], numbers[usable]).statistic
     ends = numbers[usable][[0, -1]]
     return f"{rank:+.2f}, {20.0 * np.log10(ends[1] / ends[0]):+.0f} dB"
+
+
+def classes_and_verdicts() -> list[str]:
+    """How many scenes of the paper's map have each class and verdict, under both published laws."""
+    verdicts = CODES["verdict"]
+    rows = [f"| law | class | scenes | {' | '.join(verdicts.values())} |"]
+    rows.append("|---" * (3 + len(verdicts)) + "|")
+    for law in LAWS:
+        changes = {
+            "film.law": law,
+            "campaign.count": (101, 101),
+            "campaign.record": ("rattle_class", "verdict"),
+        }
+        found = rattle.run(MAP, set=changes).result
+        told = np.array(found["rattle_class"]), np.array(found["verdict"])
+        for code, word in CLASSES.items():
+            counts = [np.sum((told[0] == code) & (told[1] == verdict)) for verdict in verdicts]
+            if sum(counts) > 0:
+                shares = " | ".join(f"{count / sum(counts):.1%}" for count in counts)
+                rows.append(f"| {law} | {spoken(word)} | {sum(counts)} | {shares} |")
+    return rows
+
+
+def write_table(name: str, rows: list[str]) -> None:
+    """Replace a table of README.md."""
+    page = HERE / "README.md"
+    begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
+    table = "\n".join([begin, *rows, end])
+    page.write_text(re.sub(f"{begin}.*{end}", lambda _: table, page.read_text(), flags=re.DOTALL))
+    print("\n".join(rows))
 
 
 def main() -> int:
@@ -108,11 +141,8 @@ def main() -> int:
         )
         style.legend_below(figure, panels[0, 0], 4)
         figure.savefig(HERE / "trends.png", dpi=110, metadata={"Software": None})
-    page = HERE / "README.md"
-    text = page.read_text()
-    table = "\n".join([BEGIN, *rows, END])
-    page.write_text(re.sub(f"{BEGIN}.*{END}", lambda _: table, text, flags=re.DOTALL))
-    print("\n".join(rows))
+    write_table("table", rows)
+    write_table("verdicts", classes_and_verdicts())
     return 0
 
 

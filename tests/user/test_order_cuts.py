@@ -70,14 +70,15 @@ def test_curves_and_colours_are_levels_of_the_cuts(result: Path) -> None:
         assert middle.tolist() == pytest.approx([1000.0, order * 1000.0 / 60.0])
 
 
-def test_differences_are_told_in_decibels(result: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("script", (("plot.py", "orders"), ("compare.py",)))
+def test_differences_are_told_in_decibels(script: tuple[str, ...], result: Path, tmp_path: Path) -> None:
     cuts = orders.computed(package.read_campaign(result))
     own = cuts.at(2.0).tolist()
     (tmp_path / "bench.csv").write_text(
         f"speed_rpm,order_2,order_11\n700,1,1\n800,{own[0] / 10.0!r},\n1000,{own[2] / 10.0!r},1\n"
     )
     code, said, complained = called_here(
-        "plot.py", "orders", result, "--measured", "bench.csv", "--format", "png", cwd=tmp_path
+        *script, result, "--measured", "bench.csv", "--format", "png", cwd=tmp_path
     )
     assert code == 0, complained
     lines = said.splitlines()
@@ -86,6 +87,18 @@ def test_differences_are_told_in_decibels(result: Path, tmp_path: Path) -> None:
         "run_up, order 2: computed less measured +20.0 dB in the mean, +20.0 to +20.0 dB at 2 speeds",
         "run_up, order 11: measured, not computed",
     ]
+
+
+def test_compare_draws_measured_cuts_alone(result: Path, tmp_path: Path) -> None:
+    (tmp_path / "bench.csv").write_text("speed_rpm,order_2\n800,1\n900,1\n")
+    for arguments, words in (
+        ((result, result, "--measured", "bench.csv"), "--measured needs one result"),
+        ((result, "--font-size", "8"), "--font-size is for the figure of --measured"),
+        ((result, "--overwrite"), "--overwrite is for the figure of --measured"),
+    ):
+        code, _, complained = called_here("compare.py", *arguments, cwd=tmp_path)
+        assert code == 2 and words in complained
+    assert not list(tmp_path.glob("*.png"))
 
 
 @pytest.mark.parametrize(

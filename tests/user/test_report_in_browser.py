@@ -97,10 +97,44 @@ def test_verdict_and_figures_are_seen(page, width):
     assert np.flatnonzero(dark.any(axis=1))[0] < 100  # it begins at the top
 
 
+def sheets(pdf: Path) -> int:
+    return len(re.findall(rb"/Type\s*/Page\b", pdf.read_bytes()))
+
+
 def test_it_prints(page):
     pdf = page.with_name("page.pdf")
     content = pdf.read_bytes()
     assert content.startswith(b"%PDF")
-    sheets = len(re.findall(rb"/Type\s*/Page\b", content))
-    assert 8 <= sheets <= 40
+    assert 6 <= sheets(pdf) <= 30  # three results: at least one sheet each before and in the appendix
     assert re.search(rb"/MediaBox\s*\[\s*0 0 59[45][.\d]* 84[12]", content)  # A4
+
+
+@pytest.mark.parametrize(
+    ("name", "most", "changes"),
+    (
+        ("idle", 4, ()),
+        ("loose_gear", 4, ()),
+        ("elastohydrodynamic", 4, ()),
+        ("gearbox", 5, ()),
+        ("gearbox_map", 5, ("campaign.count=5,4",)),
+    ),
+)
+def test_few_sheets_come_before_the_appendix(name, most, changes, repository, run, tmp_path):
+    """What leads to a decision: four sheets of a motion, five of a map or a gearbox, without the appendix."""
+    options = [part for change in changes for part in ("--set", change)]
+    ended = run(
+        repository / "input" / f"{name}.nml", *options, "--output", tmp_path, cwd=tmp_path, timeout=600.0
+    )
+    assert ended.returncode == 0, ended.stderr
+    results = [path for path in sorted(tmp_path.glob(f"{name}*.rattle")) if "motions" not in path.name]
+    whole, pdf = tmp_path / "page.html", tmp_path / "page.pdf"
+    done = call_script("report.py", *results, "--output", whole, "--pdf", pdf)
+    assert done.returncode == 0, done.stderr
+    appendix_left_out = tmp_path / "seen.html"
+    appendix_left_out.write_text(
+        whole.read_text().replace("</style>", "@media print { .appendix { display: none; } }</style>", 1)
+    )
+    seen = tmp_path / "seen.pdf"
+    browse(appendix_left_out, "--no-pdf-header-footer", f"--print-to-pdf={seen}")
+    assert 1 <= sheets(seen) <= most
+    assert sheets(seen) < sheets(pdf)

@@ -103,16 +103,29 @@ figcaption { font-size: .9rem; max-width: 46rem; margin-top: .3rem; }
 }
 @media print {
   @page { size: A4; margin: 16mm 15mm; }
-  body { max-width: none; padding: 0; font-size: 10pt; }
+  body { max-width: none; padding: 0; font-size: 10pt; orphans: 1; widows: 1; }
   h2, h3 { break-after: avoid; }
   figure, tr, .verdict { break-inside: avoid; }
   thead { display: table-header-group; }
   .wide { overflow: visible; }
   nav, .screen { display: none; }
-  figure svg { max-width: 118mm; }
-  figure { margin: .6rem 0; }
+  figure { display: inline-block; width: 86mm; margin: .3rem 3mm .3rem 0; vertical-align: top; }
+  figcaption { font-size: 8pt; }
   h2 { margin-top: 1.2rem; }
-  .appendix { break-before: page; }
+  .appendix { break-before: page; columns: 2; column-gap: 7mm; font-size: 6.5pt; line-height: 1.3; }
+  .appendix .appendix { break-before: auto; columns: auto; margin-top: .6rem; }
+  .appendix :is(table, table.dense, figcaption, .note, .class, code) { font-size: 6.5pt; }
+  .appendix :is(th, td) { padding: .08rem .3rem .08rem 0; overflow-wrap: anywhere; }
+  .appendix td.number span { white-space: normal; }
+  .appendix :is(h1, h2), .appendix details > summary h2 {
+    font-size: 9pt; margin: .6rem 0 .2rem; padding: 0; }
+  .appendix h3 { font-size: 7.5pt; margin: .5rem 0 .2rem; }
+  .appendix details details { margin-left: 0; }
+  .appendix .verdict { padding: .3rem .5rem; margin: .3rem 0; }
+  .appendix figure { width: 100%; margin: .3rem 0; }
+  .appendix .meaning { display: none; }
+  table.numbers { break-inside: avoid; }
+  .appendix pre { font-size: 5pt; line-height: 1.2; padding: .3rem; }
   details > :not(summary) { display: revert; }
   details::details-content { content-visibility: visible; display: block; }
   details > summary { list-style: none; }
