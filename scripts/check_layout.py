@@ -42,6 +42,8 @@ KNOW_FLANKS = {
         "motion/nodal_profiles",
         "motion/nodal_state",
         "motion/nodal_step",
+        "motion/nodal_tangent",
+        "orbit/nodal_orbit",
         "motion/taylor_iso_viscous",
         "motion/taylor_piezo_viscous",
         "motion/taylor_reynolds_piezo",

@@ -75,7 +75,7 @@ module nodal_flank
    real(dp), parameter :: return_share = 0.5_dp, pressure_share = 0.1_dp
 
    public :: begin_step, respond, correct_flank, finish_step, accept_step, stiffen, soften, may_soften, is_bent, rigid_gap, &
-             share_that_leaves_a_film
+             rigid_give, rigid_load, share_that_leaves_a_film
 
 contains
 
@@ -132,7 +132,7 @@ contains
             call rigid_load(contact, film, flank%rate*film + flank%past_film, flank%load(0), by_film, by_velocity, exists)
             if (.not. exists) return
             by_film = by_film + flank%rate*by_velocity
-            give = contact%compliance - 4.0_dp/pi*log(width_factor*sqrt(2.0_dp*film))
+            give = rigid_give(contact, film)
             miss = film - flank%gap(0) - flank%load(0)*give
             slope = 1.0_dp - by_film*give + 2.0_dp/pi*flank%load(0)/film
             flank%film_own = -miss/slope
@@ -192,8 +192,17 @@ contains
       real(dp), intent(in) :: film
       real(dp), intent(in) :: load
 
-      rigid_gap = film - load*(contact%compliance - 4.0_dp/pi*log(width_factor*sqrt(2.0_dp*film)))
+      rigid_gap = film - load*rigid_give(contact, film)
    end function rigid_gap
+
+   !> Compliance of the contact of a rigid film, on its width [-].
+   pure real(dp) function rigid_give(contact, film)
+      type(nodal_contact_t), intent(in) :: contact
+      !> H [-]
+      real(dp), intent(in) :: film
+
+      rigid_give = contact%compliance - 4.0_dp/pi*log(width_factor*sqrt(2.0_dp*film))
+   end function rigid_give
 
    !> Share of a correction of the gap after which there is still a film.
    pure real(dp) function share_that_leaves_a_film(flank, gap_change) result(share)

@@ -42,6 +42,8 @@ module nodal_film
    type, public :: nodal_balance_t
       !> Residuals, their slopes in P (cell, node) and in G
       real(dp), allocatable :: residual(:), by_pressure(:, :), by_gap(:)
+      !> Flow over the edges, from 0, over their share of fourth order
+      real(dp), allocatable :: flow_by_fourth(:)
    end type nodal_balance_t
 
    !> Newton's correction of the pressures of a film whose gap is still to be corrected: dP = own + with_gap dG.
@@ -53,6 +55,9 @@ module nodal_film
       logical :: changed = .false., exists = .false.
    end type nodal_correction_t
 
+   !> Pressure behind an edge over that before it from which on its flow is of fourth order
+   real(dp), parameter :: fallen = 0.25_dp
+
    !> Gauss's nodes and weights from 0 to 1, both ends of an interval alike.
    integer, parameter :: gauss = 16
    real(dp), parameter :: gauss_half(gauss/2) = [0.0950125098376374_dp, 0.2816035507792589_dp, 0.4580167776572274_dp, &
@@ -62,8 +67,10 @@ module nodal_film
    real(dp), parameter :: gauss_place(gauss) = 0.5_dp + 0.5_dp*[-gauss_half(gauss/2:1:-1), gauss_half]
    real(dp), parameter :: gauss_weight(gauss) = 0.5_dp*[gauss_share(gauss/2:1:-1), gauss_share]
 
-   public :: grid_of, balance_of_cells, shares_of_fourth_order, correct_pressures, smallest_film, films_along, smallest_of_films, &
-             find_largest_pressure, film_at_place, films_at_nodes, central_film, volumes_of, rigid_pressures, hertzian_pressure
+   public :: grid_of, balance_of_cells, shares_of_fourth_order, changes_of_fourth_order, correct_pressures, solve_active, &
+             smallest_film, films_along, &
+             smallest_of_films, find_largest_pressure, film_at_place, films_at_nodes, central_film, volumes_of, &
+             rigid_pressures, hertzian_pressure
 
 contains
 
@@ -265,13 +272,16 @@ contains
       if (.not. filled) return
       call flow_between(oil, [0.0_dp, pressures], [pressures, 0.0_dp], difference, by_low, by_high)
       slope = difference
+      if (.not. allocated(balance%flow_by_fourth)) allocate (balance%flow_by_fourth(0:n))
+      balance%flow_by_fourth = 0.0_dp
       by_node(:, -1) = 0.0_dp
       by_node(:, 0) = by_low
       by_node(:, 1) = by_high
       by_node(:, 2) = 0.0_dp
       ! Differences of both neighbours make that of an edge one of fourth order.
       do i = 2, n - 2
-         slope(i) = difference(i) + fourth(i)*(2.0_dp*difference(i) - difference(i - 1) - difference(i + 1))
+         balance%flow_by_fourth(i) = 2.0_dp*difference(i) - difference(i - 1) - difference(i + 1)
+         slope(i) = difference(i) + fourth(i)*balance%flow_by_fourth(i)
          by_node(i, :) = by_node(i, :) + fourth(i)*(2.0_dp*by_node(i, :) &
                                                     - [by_low(i - 1), by_high(i - 1), by_low(i + 1), by_high(i + 1)])
       end do
@@ -280,6 +290,7 @@ contains
          flow(i) = conductance*slope(i)
          by_film(i) = 1.0_dp - 3.0_dp*flow(i)/film(i)
          by_node(i, :) = conductance*by_node(i, :)
+         balance%flow_by_fourth(i) = conductance*balance%flow_by_fourth(i)
       end do
       balance%residual = film(1:) - film(:n - 1) - (flow(1:) - flow(:n - 1)) + past
       if (rate > 0.0_dp) balance%residual = balance%residual + rate*volumes_of(grid, gap, pressures)
@@ -304,8 +315,6 @@ contains
       !> P at the last time [-]
       real(dp), intent(in) :: pressures(:)
       real(dp) :: shares(0:size(pressures))
-      !> Pressure behind an edge over that before it from which on the order is the fourth
-      real(dp), parameter :: fallen = 0.25_dp
       integer :: i
 
       shares = 0.0_dp
@@ -314,6 +323,23 @@ contains
          shares(i) = min(1.0_dp, max(0.0_dp, pressures(i + 2))/(fallen*pressures(i - 1)))/24.0_dp
       end do
    end function shares_of_fourth_order
+
+   !> How these shares differ of neighbouring pressures.
+   pure function changes_of_fourth_order(pressures, changes) result(shares)
+      !> P at the last time [-]
+      real(dp), intent(in) :: pressures(:)
+      !> By which the others differ from them [-]
+      real(dp), intent(in) :: changes(:)
+      real(dp) :: shares(0:size(pressures)), ratio
+      integer :: i
+
+      shares = 0.0_dp
+      do i = 2, size(pressures) - 2
+         if (.not. min(pressures(i - 1), pressures(i + 2)) > 0.0_dp) cycle
+         ratio = pressures(i + 2)/pressures(i - 1)
+         if (ratio < fallen) shares(i) = (changes(i + 2) - ratio*changes(i - 1))/(24.0_dp*fallen*pressures(i - 1))
+      end do
+   end function changes_of_fourth_order
 
    !> Newton's correction of pressures, those of ruptured nodes 0: which these are is decided anew.
    pure subroutine correct_pressures(grid, balance, pressures, one_node, active, correction)
@@ -326,44 +352,66 @@ contains
       !> Nodes under pressure, before and after
       logical, intent(inout) :: active(:)
       type(nodal_correction_t), intent(inout) :: correction
-      real(dp) :: table(grid%nodes*(grid%nodes + 2)), right(grid%nodes, 2)
-      integer :: places(grid%nodes), m, i, k
+      real(dp) :: right(grid%nodes, 2)
+      integer :: i, k
       logical :: is_active, solved
 
       correction%changed = .false.
-      m = 0
       do i = 1, grid%nodes
          is_active = pressures(i)*balance%by_pressure(i, i) > balance%residual(i)
          if (one_node .and. correction%changed) is_active = active(i)
          correction%changed = correction%changed .or. (is_active .neqv. active(i))
          active(i) = is_active
-         if (.not. is_active) cycle
-         m = m + 1
-         places(m) = i
       end do
       if (.not. allocated(correction%own)) allocate (correction%own(grid%nodes), correction%with_gap(grid%nodes))
       correction%own = 0.0_dp
       correction%with_gap = 0.0_dp
-      right(:m, 1) = -balance%residual(places(:m))
-      right(:m, 2) = -balance%by_gap(places(:m))
+      right(:, 1) = -balance%residual
+      right(:, 2) = -balance%by_gap
       do k = 1, grid%nodes
          if (active(k) .or. .not. abs(pressures(k)) > 0.0_dp) cycle
          correction%own(k) = -pressures(k)
-         right(:m, 1) = right(:m, 1) + balance%by_pressure(places(:m), k)*pressures(k)
+         right(:, 1) = right(:, 1) + balance%by_pressure(:, k)*pressures(k)
+      end do
+      call solve_active(balance, active, right, solved)
+      correction%exists = solved
+      if (.not. solved) return
+      correction%own = correction%own + right(:, 1)
+      correction%with_gap = right(:, 2)
+      correction%load = dot_product(grid%load, pressures + correction%own)
+      correction%load_by_gap = dot_product(grid%load, correction%with_gap)
+   end subroutine correct_pressures
+
+   !> Pressures under which the cells of nodes under pressure balance what is given, linearly.
+   pure subroutine solve_active(balance, active, right, solved)
+      type(nodal_balance_t), intent(in) :: balance
+      !> Nodes under pressure
+      logical, intent(in) :: active(:)
+      !> Right-hand sides, cell and number, and then the pressures, 0 where the film is ruptured
+      real(dp), intent(inout) :: right(:, :)
+      logical, intent(out) :: solved
+      real(dp) :: table(size(active)*(size(active) + size(right, 2)))
+      integer :: places(size(active)), m, i, k
+
+      m = 0
+      do i = 1, size(active)
+         if (.not. active(i)) cycle
+         m = m + 1
+         places(m) = i
       end do
       do k = 1, m
          table((k - 1)*m + 1:k*m) = balance%by_pressure(places(:m), places(k))
       end do
-      table(m*m + 1:m*m + m) = right(:m, 1)
-      table(m*m + m + 1:m*m + 2*m) = right(:m, 2)
-      call eliminate(m, m + 2, table, solved)
-      correction%exists = solved
+      do k = 1, size(right, 2)
+         table((m + k - 1)*m + 1:(m + k)*m) = right(places(:m), k)
+      end do
+      call eliminate(m, m + size(right, 2), table, solved)
       if (.not. solved) return
-      correction%own(places(:m)) = table(m*m + 1:m*m + m)
-      correction%with_gap(places(:m)) = table(m*m + m + 1:m*m + 2*m)
-      correction%load = dot_product(grid%load, pressures + correction%own)
-      correction%load_by_gap = dot_product(grid%load, correction%with_gap)
-   end subroutine correct_pressures
+      right = 0.0_dp
+      do k = 1, size(right, 2)
+         right(places(:m), k) = table((m + k - 1)*m + 1:(m + k)*m)
+      end do
+   end subroutine solve_active
 
    !> What the cells hold.
    pure function volumes_of(grid, gap, pressures) result(volumes)

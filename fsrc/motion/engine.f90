@@ -83,6 +83,8 @@ module engine
       real(dp) :: distance = 0.0_dp
       !> Samples written: of whole periods, and of the one in which the motion failed
       integer :: samples = 0, samples_of_failure = 0
+      !> Of films in nodes that came to their end: histories, as of module nodal_state
+      real(dp), allocatable :: nodal(:)
       type(motion_count_t) :: count = motion_count_t()
    end type ending_t
 

@@ -1,7 +1,7 @@
 !> Motion of a gear whose flanks bend under films solved in nodes of pressure: the gear at rest, its periods by the steps of module
 !> nodal_step, their samples, and when the motion repeats.
 module nodal_engine
-   use carried_loads, only: films_of, initial_state
+   use carried_loads, only: initial_state
    use clock, only: wall_seconds
    use engine, only: checkpoint_t, ending_t, motion_watcher_t, motion_state_t, request_t, sample_sink_t, status_of_stop
    use errors, only: error_t
@@ -12,8 +12,9 @@ module nodal_engine
                           share_that_leaves_a_film, step_weights_t, stiffen
    use nodal_profiles, only: nodal_profiles_t, note_profiles, start_profiles
    use nodal_state, only: pack_motion, unpack_motion
-   use nodal_step, only: first_step, gear_t, motion_t, nodal_choice_t, set_up, state_of, take_step
-   use problem, only: flank_count, of_drive_compression, of_film, of_velocity, problem_t, state_size, static_load
+   use nodal_step, only: begin_period, distance_of_states, first_step, gear_t, most_steps, motion_t, nodal_choice_t, set_up, &
+                         state_of, take_step
+   use problem, only: of_drive_compression, of_film, of_velocity, problem_t, state_size, static_load
    use repetition, only: longest_orbit
    use scene_status, only: status_complete, status_film_cycles, status_film_torn, status_interrupted, status_steady
    use signals, only: must_stop
@@ -24,9 +25,6 @@ module nodal_engine
 
    !> Newton's passes for the gear at rest: of them all, and before nodes change one by one
    integer, parameter :: most_rest_passes = 120, free_rest_passes = 80
-   !> Steps of a period after which a motion is given up; it takes 400 to 800, and 2000 at the finest accuracy
-   integer(int64), parameter :: most_steps = 50000_int64
-
    !> States at the ends of periods that are kept, and share of the tolerance of a step up to which a motion repeats
    integer, parameter :: kept_periods = 4*longest_orbit + 1
    real(dp), parameter :: repetition_share = 2.0_dp
@@ -116,9 +114,7 @@ contains
          call sink%take(int(period - 1, int64)*int(n, int64) + 1_int64, force, states, accelerations, error)
          if (allocated(error)) return
          if (period > from) call record_period(problem, motion%states(1, of_velocity), nodes, record)
-         ! Times count from the start of the period.
-         motion%time = motion%time - 1.0_dp
-         motion%time(1) = 0.0_dp
+         call begin_period(motion)
          fastest = max(fastest, maxval(abs(states(:, of_velocity))))
          watched(:, 2:) = watched(:, :kept_periods - 1)
          watched(:, 1) = motion%states(1, :)
@@ -145,6 +141,7 @@ contains
          if (ending%status /= status_complete) return
       end do
       if (ending%orbit > 0) ending%status = status_steady
+      ending%nodal = pack_motion(problem, choice%nodes, motion)
       if (present(profiles)) profiles = kept
    end subroutine solve_in_nodes
 
@@ -167,7 +164,7 @@ contains
          known = min(size(states, 2) - orbit, 3*orbit)
          if (known < 3*orbit) exit
          do age = 1, known
-            distances(age) = distance_of(states(:, age), states(:, age + orbit))
+            distances(age) = distance_of_states(problem, fastest, states(:, age), states(:, age + orbit))
          end do
          ratio = 0.0_dp
          do period = 1, orbit
@@ -181,22 +178,6 @@ contains
          if (maxval(distances(:orbit))*max(1.0_dp, ratio/(1.0_dp - ratio)) <= tolerance) return
       end do
       orbit = 0
-
-   contains
-
-      !> Relative distance of two states: of both films, and of velocities over the largest one.
-      pure real(dp) function distance_of(one, other) result(distance)
-         real(dp), intent(in) :: one(:)
-         real(dp), intent(in) :: other(:)
-         real(dp) :: films(2, 2)
-
-         distance = abs(one(of_velocity) - other(of_velocity))/fastest
-         films(1, :flank_count(problem)) = reshape(films_of(problem, reshape(one, [1, size(one)])), [flank_count(problem)])
-         films(2, :flank_count(problem)) = reshape(films_of(problem, reshape(other, [1, size(other)])), [flank_count(problem)])
-         distance = max(distance, maxval(abs(films(1, :flank_count(problem)) - films(2, :flank_count(problem))) &
-                                         /films(2, :flank_count(problem))))
-      end function distance_of
-
    end function orbit_of
 
    !> Note which film could not be followed, if one could not, and under which load: the one in nodes, of both the one that carries

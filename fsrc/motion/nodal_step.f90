@@ -6,6 +6,7 @@
 !> A pass of Newton's method solves each film for a gap that is still to be corrected, M + S dG, so that the gear has one equation.
 !> A step of a rigid film that ends beyond the bound is thrown away and done again in nodes. Steps end where periods do.
 module nodal_step
+   use carried_loads, only: films_of
    use constants, only: two_pi
    use engine, only: ending_t
    use force, only: force_at
@@ -14,6 +15,7 @@ module nodal_step
    use nodal_flank, only: accept_step, begin_step, correct_flank, difference_times, finish_step, is_bent, kept_times, &
                           may_soften, nodal_contact_t, nodal_flank_t, respond, share_that_leaves_a_film, soften, &
                           step_weights_t, stiffen
+   use nodal_tangent, only: advance_tangent, nodal_tangent_t, soften_tangent, stiffen_tangent
    use problem, only: flank_count, has_two_flanks, largest_applied_force, of_film, of_velocity, problem_t, state_size
    use scene_status, only: status_film_cycles, status_film_torn
    implicit none(type, external)
@@ -45,6 +47,8 @@ module nodal_step
       real(dp) :: load_floor = largest_floor
       !> Velocity below which errors of velocities count as errors of this one: a share of what the force gives a free gear
       real(dp) :: velocity_floor = 1.0_dp
+      !> Velocity that the force gives a free gear
+      real(dp) :: free_velocity = 1.0_dp
    end type gear_t
 
    !> A motion under way. Places of histories as in module nodal_flank.
@@ -78,7 +82,10 @@ module nodal_step
    !> Rejected steps in a row after which an unloaded film is torn, its load and the times it may be in a period
    integer, parameter :: most_rejected = 6, most_torn = 20
 
-   public :: set_up, state_of, take_step
+   !> Steps of a period after which a motion is given up; it takes 400 to 800, and 2000 at the finest accuracy
+   integer(int64), parameter, public :: most_steps = 50000_int64
+
+   public :: set_up, state_of, take_step, begin_period, distance_of_states
 
 contains
 
@@ -100,7 +107,8 @@ contains
          gear%period = 1.0_dp/(problem%frequency*gear%time_unit)
          gear%mass = problem%mass*oil%film_unit/(gear%time_unit**2*oil%load_unit)
          gear%flanks = flank_count(problem)
-         gear%velocity_floor = floor_share*largest_applied_force(problem)/(oil%load_unit*gear%mass)*gear%period/two_pi
+         gear%free_velocity = largest_applied_force(problem)/(oil%load_unit*gear%mass)*gear%period/two_pi
+         gear%velocity_floor = floor_share*gear%free_velocity
          gear%load_floor = min(largest_floor, largest_applied_force(problem)/oil%load_unit)
          if (has_two_flanks(problem)) gear%backlash = problem%backlash/oil%film_unit
       end associate
@@ -130,13 +138,15 @@ contains
    end function state_of
 
    !> One step, which is done again shorter, or in nodes, until it may be accepted.
-   subroutine take_step(problem, contact, gear, choice, motion, ending)
+   subroutine take_step(problem, contact, gear, choice, motion, ending, tangent)
       type(problem_t), intent(in) :: problem
       type(nodal_contact_t), intent(in) :: contact
       type(gear_t), intent(in) :: gear
       type(nodal_choice_t), intent(in) :: choice
       type(motion_t), intent(inout) :: motion
       type(ending_t), intent(inout) :: ending
+      !> Neighbours of the motion, which follow it
+      type(nodal_tangent_t), intent(inout), optional :: tangent
       type(step_weights_t) :: weights
       real(dp) :: left, error, growth
       integer :: order, flank, rejected
@@ -164,6 +174,7 @@ contains
                   associate (film => motion%flanks(flank))
                      if (film%in_nodes .and. film%load(1) < largest_floor .and. film%velocity(1) > 0.0_dp) then
                         call soften(contact, film)
+                        if (present(tangent)) call soften_tangent(contact, film, tangent%flanks(flank))
                         ending%count%cuts = ending%count%cuts + 1
                         changed = .true.
                      end if
@@ -188,6 +199,7 @@ contains
          do flank = 1, gear%flanks
             if (motion%flanks(flank)%in_nodes) cycle
             if (.not. is_bent(contact, motion%flanks(flank))) cycle
+            if (present(tangent)) call stiffen_tangent(contact, motion%flanks(flank), tangent%flanks(flank))
             call stiffen(contact, motion%flanks(flank))
             changed = .true.
          end do
@@ -210,9 +222,12 @@ contains
          end if
          exit
       end do
+      if (present(tangent)) call advance_tangent(contact, motion%flanks(:gear%flanks), gear%mass, weights, tangent)
       do flank = 1, gear%flanks
          call accept_step(contact, motion%flanks(flank))
-         if (may_soften(contact, motion%flanks(flank))) call soften(contact, motion%flanks(flank))
+         if (.not. may_soften(contact, motion%flanks(flank))) cycle
+         call soften(contact, motion%flanks(flank))
+         if (present(tangent)) call soften_tangent(contact, motion%flanks(flank), tangent%flanks(flank))
       end do
       motion%position(1:) = motion%position(:kept_times - 1)
       motion%velocity(1:) = motion%velocity(:kept_times - 1)
@@ -222,6 +237,32 @@ contains
       motion%states(2:, :) = motion%states(1:kept_times - 1, :)
       motion%states(1, :) = state_of(problem, gear, motion, 1)
    end subroutine take_step
+
+   !> Let times count from the start of the next period.
+   pure subroutine begin_period(motion)
+      type(motion_t), intent(inout) :: motion
+
+      motion%time = motion%time - 1.0_dp
+      motion%time(1) = 0.0_dp
+   end subroutine begin_period
+
+   !> Relative distance of two states: of both films, and of velocities over the largest one.
+   pure real(dp) function distance_of_states(problem, fastest, one, other) result(distance)
+      type(problem_t), intent(in) :: problem
+      !> Largest velocity [m/s]
+      real(dp), intent(in) :: fastest
+      !> Numbers of a state
+      real(dp), intent(in) :: one(:)
+      !> Those of the other one
+      real(dp), intent(in) :: other(:)
+      real(dp) :: films(2, 2)
+
+      distance = abs(one(of_velocity) - other(of_velocity))/fastest
+      films(1, :flank_count(problem)) = reshape(films_of(problem, reshape(one, [1, size(one)])), [flank_count(problem)])
+      films(2, :flank_count(problem)) = reshape(films_of(problem, reshape(other, [1, size(other)])), [flank_count(problem)])
+      distance = max(distance, maxval(abs(films(1, :flank_count(problem)) - films(2, :flank_count(problem))) &
+                                      /films(2, :flank_count(problem))))
+   end function distance_of_states
 
    !> Weights of a step of some order, and of a prediction by some points.
    pure type(step_weights_t) function weights_of(time, order, points) result(weights)

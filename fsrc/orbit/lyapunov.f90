@@ -16,11 +16,12 @@ module lyapunov
    private
 
    !> Periods that a motion and its neighbour are followed, in stretches. After each of these it is seen whether they part at all.
-   integer, parameter :: stretch_periods = 25, stretches = 4
+   integer, parameter, public :: stretch_periods = 25
+   integer, parameter :: stretches = 4
    !> Periods of a block, whose means tell the statistical error of the exponent.
    integer, parameter :: block_periods = 5
    !> Periods in which the neighbour turns into the direction that grows most: they do not count.
-   integer, parameter :: turning_periods = 5
+   integer, parameter, public :: turning_periods = 5
    !> Accuracy of the motions, and distance of the neighbours, relative to the film: a thousand times farther apart than the
    !> errors of a period, whose per mille of a growth is nothing beside its scatter from period to period, and near enough for
    !> the distance to grow as an infinitely small one does.

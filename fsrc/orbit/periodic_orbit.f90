@@ -15,7 +15,8 @@ module periodic_orbit
    implicit none(type, external)
    private
 
-   integer, parameter :: longest_period = 8
+   !> Longest period that is looked for [periods of the force]
+   integer, parameter, public :: longest_period = 8
    !> Accuracy of the period map, and of the fixed point.
    real(dp), parameter :: map_accuracy = 1.0e-12_dp, converged = 1.0e-10_dp
    !> Accuracy of the map while a fixed point is still sought, and the correction from which on it is found. Most searches end

@@ -1,6 +1,6 @@
 !> Judges a solved scene: its window, class and regime, and how far they can be trusted.
 module judge_scene
-   use verify_scene, only: verify_in_nodes, verify_motion
+   use verify_scene, only: orbit_nearness, verify_in_nodes, verify_motion
    use controlled_engine, only: solve_window
    use engine, only: ending_t
    use errors, only: error_t
@@ -13,9 +13,12 @@ module judge_scene
    use kinds, only: dp
    use memory_need, only: expect_window_memory
    use node_extremes, only: seen_pressure
+   use lyapunov, only: parting_t
+   use nodal_orbit, only: find_nodal_orbit, follow_nodal_neighbours
+   use periodic_orbit, only: attracting_period
    use carried_loads, only: thinnest_film
    use problem, only: of_velocity
-   use rattle_class, only: classify_steps, note_orbit, rattle_verdict_t
+   use rattle_class, only: class_irregular_so_far, classify_steps, note_orbit, note_parting, rattle_verdict_t
    use regime_check, only: check_regime
    use sample_recorder, only: sample_recorder_t
    use scene_status, only: is_success, status_steady
@@ -90,7 +93,11 @@ contains
       judged%judged = .not. allocated(error)
       if (.not. judged%judged) return
       call note_orbit(judged%rattle, judged%repeats_after)
-      if (scene%film%model /= model_resolved) call follow_one(ending, judged)
+      if (scene%film%model == model_resolved) then
+         call follow_in_nodes(scene%spectrum%verify, ending, judged)
+      else
+         call follow_one(ending, judged)
+      end if
       judged%judged = .not. must_stop()
       if (.not. judged%judged) return
       judged%window_periods = window%periods
@@ -192,5 +199,30 @@ contains
       judged%rattle = verdicts(1)
       judged%repeats_after = repeat_after(1)
    end subroutine follow_one
+
+   !> Learn of the periodic motion that a motion in nodes ends near, and of one that is off its harmonics whether it repeats or
+   !> neighbours part from it.
+   subroutine follow_in_nodes(asked, ending, judged)
+      !> Whether the periodic motion is asked for
+      logical, intent(in) :: asked
+      !> How it ended
+      type(ending_t), intent(in) :: ending
+      !> Its verdict, its periodic motion and the periods after which it repeats are renewed
+      type(judged_scene_t), intent(inout) :: judged
+      type(parting_t) :: parting
+
+      if (.not. asked .and. judged%rattle%class /= class_irregular_so_far) return
+      associate (problem => judged%resolved%problem, orbit => judged%orbit)
+         call unlock_texts()
+         call find_nodal_orbit(problem, judged%nodal, ending%nodal, orbit_nearness, orbit, judged%orbit_outcome)
+         if (judged%rattle%class == class_irregular_so_far .and. orbit%period > 0) judged%repeats_after = orbit%period
+         call note_orbit(judged%rattle, attracting_period(orbit))
+         if (judged%rattle%class == class_irregular_so_far) then
+            call follow_nodal_neighbours(problem, judged%nodal, ending%nodal, parting)
+            call note_parting(judged%rattle, parting)
+         end if
+         call lock_texts()
+      end associate
+   end subroutine follow_in_nodes
 
 end module judge_scene

@@ -13,6 +13,7 @@ module judged_scene
    use nodal_step, only: nodal_choice_t
    use node_extremes, only: extreme_t, seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, &
       seen_position, seen_pressure, seen_velocity
+   use nodal_orbit, only: orbit_unasked
    use periodic_orbit, only: orbit_stability, periodic_orbit_t
    use quantities, only: quantity_acceleration_error, quantity_acceleration_kurtosis, quantity_acceleration_maximum, &
       quantity_acceleration_maximum_error, quantity_acceleration_minimum, quantity_acceleration_minimum_error, &
@@ -96,6 +97,8 @@ module judged_scene
       type(verification_t) :: verification
       !> The periodic motion behind it, where one was looked for
       type(periodic_orbit_t) :: orbit
+      !> Of films in nodes: whether one was found, and why not, as of module nodal_orbit
+      integer :: orbit_outcome = orbit_unasked
       !> The motions that all starts have led to, where others were followed
       type(coexisting_motions_t) :: coexisting
    end type judged_scene_t

@@ -119,7 +119,7 @@ contains
    end subroutine solve_nodal_scene
 
    !> The window of a scene, solved finer.
-   subroutine solve_finer(scene, problem, choice, request, periods, window, ending)
+   subroutine solve_finer(scene, problem, choice, request, periods, window, ending, goes_on)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> What moves
@@ -132,8 +132,11 @@ contains
       integer, intent(in) :: periods
       !> On entry periods and samples, on return the window
       type(window_t), intent(inout) :: window
-      !> How it ended
-      type(ending_t), intent(out) :: ending
+      !> How it ended; where it goes on, how it ended before
+      type(ending_t), intent(inout) :: ending
+      !> Whether it goes on from there; absent: no
+      logical, intent(in), optional :: goes_on
+      type(checkpoint_t) :: state
       type(nodal_choice_t) :: finer
       type(request_t) :: again
       type(window_keeper_t) :: keeper
@@ -149,7 +152,10 @@ contains
       again%sampled_periods = window%periods
       again%until_steady = .false.
       keeper%numbers = state_size(problem)
-      call solve_nodal_scene(scene, problem, finer, again, keeper, nobody, ending, window%record, error)
+      if (present(goes_on)) then
+         if (goes_on) state = checkpoint_t(periods=ending%periods, numbers=ending%numbers, nodal=ending%nodal)
+      end if
+      call solve_nodal_scene(scene, problem, finer, again, keeper, nobody, ending, window%record, error, checkpoint=state)
       if (.not. is_success(ending%status)) return
       call move_alloc(keeper%states, window%states)
       call move_alloc(keeper%accelerations, window%accelerations)

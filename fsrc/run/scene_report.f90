@@ -11,6 +11,7 @@ module scene_report
    use kinds, only: dp
    use log_file, only: log_magic, log_t
    use node_extremes, only: seen_acceleration, seen_film
+   use nodal_orbit, only: orbit_sentence
    use output_place, only: has_motions_table, motions_path, profiles_path, result_path, summary_path
    use problem, only: reference_film
    use quantities, only: a_code, a_flag, part_cost, part_scene, part_window, quantity_closure_range, quantity_deflection_share, &
@@ -474,6 +475,7 @@ contains
                nint(quantity_value(quantity_orbit_stability, judged)))// &
                                              ', largest Floquet multiplier '//short_text(abs(orbit%multipliers(1)), 3))
       end associate
+      if (orbit_sentence(judged%orbit_outcome) /= '') call log%line('  '//orbit_sentence(judged%orbit_outcome))
    end subroutine report_verification
 
    !> A length [m] as a number of micrometres.

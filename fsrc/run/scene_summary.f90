@@ -7,6 +7,7 @@ module scene_summary
    use judged_scene, only: judged_scene_t, quantity_list, quantity_value
    use key_table, only: choice_word
    use kinds, only: dp, int64
+   use nodal_orbit, only: orbit_sentence
    use quantities, only: a_code, a_count, a_flag, a_list, part_class, part_cost, part_errors, part_spectrum, part_orbit, &
       part_regime, &
                       part_scene, part_window, quantity_code, quantity_film_regime, quantity_harmonics, quantity_law_contradicted, &
@@ -73,6 +74,7 @@ contains
          if (allocated(judged%coexisting%motions)) call summary%add('motions_text', motions_sentence(judged%coexisting))
          call add_part(summary, judged, part_errors)
          call add_part(summary, judged, part_orbit)
+         if (orbit_sentence(judged%orbit_outcome) /= '') call summary%add('orbit_text', orbit_sentence(judged%orbit_outcome))
          call add_part(summary, judged, part_regime)
       end if
       if (.not. is_success(judged%status) .and. judged%film > 0.0_dp) call summary%add('film_at_status_time', judged%film)

@@ -6,7 +6,7 @@ module verify_scene
    use verification, only: verification_t, compare_windows, doubt_behind, doubt_of_closing, doubt_of_flight, doubt_of_return, &
       doubt_of_impacts, &
       severity_error, no_verification, windows_behind
-   use engine, only: ending_t, motion_state_t, start_of
+   use engine, only: ending_t, motion_state_t, request_t, start_of
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use kinds, only: dp
@@ -31,7 +31,7 @@ module verify_scene
    !> Accuracy of the tighter solution: this, or a hundredth of the scene's own.
    real(dp), parameter :: tight_accuracy = 1.0e-10_dp, tightest_accuracy = 1.0e-12_dp
    !> A periodic motion farther away than this is not that of the scene [-].
-   real(dp), parameter :: orbit_nearness = 0.02_dp
+   real(dp), parameter, public :: orbit_nearness = 0.02_dp
 
    !> Error of a finer solution in nodes, in the unit that module verification multiplies by ten, over the accuracy of the scene
    real(dp), parameter :: finer_share = 0.03_dp
@@ -139,6 +139,7 @@ contains
       type(window_t) :: finer
       type(ending_t) :: ending
       type(rattle_verdict_t) :: finer_verdict
+      type(doubt_t) :: doubt
 
       finer%periods = window%periods
       finer%samples_per_period = window%samples_per_period
@@ -154,12 +155,15 @@ contains
       if (.not. finer_verdict%spectrum%sampling_sufficient .or. window%classified_by == 0) &
          call classify_steps(finer%record, resolved%problem%frequency, scene%spectrum, resolved%noise_floor, finer_verdict)
       call note_orbit(finer_verdict, orbit)
+      call note_known(finer_verdict, verdict)
+      doubt = doubt_of_impacts(verdict, finer_verdict, window%periods)
+      if (.not. is_doubted(doubt) .and. verdict%class == class_irregular .and. finer_verdict%class == class_irregular) &
+         call look_behind_in_nodes(scene, resolved, choice, ending, window, doubt)
       associate (problem => resolved%problem)
          ! Of the films their extremes count: where one falls by decades in an impact, a millionth of a period is a third of it.
          call compare_windows(spread(minval(films_of(problem, window%states), dim=1), 1, 1), &
                               spread(minval(films_of(problem, finer%states), dim=1), 1, 1), extremes, &
-                              extremes_of_record(finer%record), verdict, finer_verdict, &
-                              doubt_of_impacts(verdict, finer_verdict, window%periods), scene%spectrum, &
+                              extremes_of_record(finer%record), verdict, finer_verdict, doubt, scene%spectrum, &
                               scene%spectrum%verification_tolerance, finer_share*scene%solver%accuracy, 0.0_dp, verification)
          verification%impacts = agreement_of(problem, extremes, impacts, extremes_of_record(finer%record), &
                                              impacts_of_record(finer%record, problem%frequency))
@@ -237,6 +241,41 @@ contains
          if (is_doubted(doubt)) return
       end do
    end subroutine look_behind
+
+   !> Whether a motion in nodes stays irregular behind the window of its finer solution.
+   subroutine look_behind_in_nodes(scene, resolved, choice, ending, judged, doubt)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> What follows from it
+      type(resolved_scene_t), intent(in) :: resolved
+      !> How it was followed
+      type(nodal_choice_t), intent(in) :: choice
+      !> Of the finer solution
+      type(ending_t), intent(in) :: ending
+      !> The window that was judged
+      type(window_t), intent(in) :: judged
+      !> None if the motion stays irregular
+      type(doubt_t), intent(out) :: doubt
+      type(window_t) :: window
+      type(ending_t) :: last
+      type(rattle_verdict_t) :: verdict
+      type(request_t) :: request
+      integer :: passed
+
+      last = ending
+      request = request_of(scene)
+      doubt = doubt_t()
+      call unlock_texts()
+      do passed = 1, windows_behind(judged%periods)
+         window = window_t(periods=judged%periods, samples_per_period=judged%samples_per_period)
+         call solve_finer(scene, resolved%problem, choice, request, last%periods + judged%periods, window, last, goes_on=.true.)
+         if (is_success(last%status)) call classify_window(scene%spectrum, resolved%problem, window%periods, window%accelerations, &
+                                                           window%record, resolved%noise_floor, verdict)
+         doubt = doubt_behind(passed, last%status, verdict)
+         if (is_doubted(doubt)) exit
+      end do
+      call lock_texts()
+   end subroutine look_behind_in_nodes
 
    !> Whether the samples are too few, and how many would do.
    pure type(doubt_t) function doubt_of_samples(scene, verdict, tight, tight_verdict) result(doubt)
