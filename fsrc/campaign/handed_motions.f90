@@ -20,6 +20,8 @@ module handed_motions
 
    !> Seed of the starts that are drawn
    integer, parameter :: start_seed = 1
+   !> How often a motion from rest that has not shown what it is is followed on
+   integer, parameter :: most_extensions = 3
 
    !> Motions that a scene was handed: numbers of the scenes that had them, and their places there; and those that did not settle
    type :: handed_t
@@ -31,8 +33,8 @@ module handed_motions
 
 contains
 
-   !> Motions from all starts of the scenes but the first, rest; one from rest that has not shown what it is is followed on. After a
-   !> signal to stop they are of no use.
+   !> Motions from all starts of the scenes but the first, rest; one from rest that has not shown what it is is followed on before
+   !> them. After a signal to stop they are of no use.
    subroutine find_other_motions(scene, resolved, choices, requests, with_verdicts, order, space, found, error)
       !> Base scene
       type(scene_t), intent(in) :: scene
@@ -52,13 +54,29 @@ contains
       type(motion_start_t), allocatable :: starts(:, :)
       type(motion_state_t) :: state
       type(trial_t) :: trials(size(order))
-      integer, allocatable :: left(:)
+      integer, allocatable :: left(:), slow(:)
+      logical, allocatable :: kept(:)
       integer :: number, i
 
       do i = 1, size(order)
          found(order(i))%told%one_start_reason = one_start_reason(resolved(order(i))%problem, scene%solver%method)
       end do
       left = pack(order, found(order)%told%one_start_reason == several_starts .and. found(order)%told%starts_solved > 0)
+      ! What settles slowly is followed on, each time by as many periods as before; other starts may come to it then.
+      slow = pack(left, [(found(left(i))%settled(1)%period == 0 .and. &
+                          found(left(i))%told%motions(1)%class == class_irregular_so_far, i=1, size(left))])
+      do i = 1, size(slow)
+         trials(i) = trial_t(slow(i), found(slow(i))%settled(1)%states(:, 1), is_own=.true.)
+      end do
+      do number = 1, most_extensions
+         if (size(slow) == 0) exit
+         call solve_trials(resolved, choices, requests, with_verdicts, trials(:size(slow)), space, found, error)
+         if (must_stop() .or. allocated(error)) return
+         kept = [(found(slow(i))%settled(1)%period == 0 .and. &
+                  found(slow(i))%told%motions(1)%class == class_irregular_so_far, i=1, size(slow))]
+         trials(:count(kept)) = pack(trials(:size(slow)), kept)
+         slow = pack(slow, kept)
+      end do
       allocate (starts(scene%solver%starts, size(left)))
       do i = 1, size(left)
          starts(:, i) = motion_starts(resolved(left(i))%problem, scene%solver%starts, start_seed)
@@ -71,12 +89,6 @@ contains
          call solve_trials(resolved, choices, requests, with_verdicts, trials(:size(left)), space, found, error)
          if (must_stop() .or. allocated(error)) return
       end do
-      left = pack(left, [(found(left(i))%settled(1)%period == 0 .and. &
-                          found(left(i))%told%motions(1)%class == class_irregular_so_far, i=1, size(left))])
-      do i = 1, size(left)
-         trials(i) = trial_t(left(i), found(left(i))%settled(1)%states(:, 1), is_own=.true.)
-      end do
-      call solve_trials(resolved, choices, requests, with_verdicts, trials(:size(left)), space, found, error)
    end subroutine find_other_motions
 
    !> Hand every motion to the neighbours that have none like it, in rounds ordered by the numbers of the scenes.

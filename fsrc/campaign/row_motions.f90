@@ -43,7 +43,7 @@ module row_motions
       !> Place of its scene in the batch
       integer :: scene = 0
       real(dp), allocatable :: state(:)
-      !> Whether it is the end of the motion from rest, which is followed on
+      !> Whether it is the end of the motion from rest, which is followed on; on return the state is that of its new end
       logical :: is_own = .false.
       !> On return, whether it came to a motion that repeats
       logical :: settled = .false.
@@ -73,7 +73,8 @@ contains
    end function motion_from_rest
 
    !> A motion by its window. Where the run ended before the motion repeats within the accuracy, the states of the window tell after
-   !> how many periods they come again near enough, or the periodic motion that was found next to its end.
+   !> how many periods they come again near enough, or the periodic motion that was found next to its end. One that is irregular so
+   !> far may creep along by less than that and be far from where it settles.
    type(settled_motion_t) function settled_of(problem, samples_per_period, place, group) result(settled)
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: samples_per_period
@@ -92,10 +93,12 @@ contains
             states(:, i) = group%states(i*samples_per_period, :size(states, 1), place)
          end do
          settled%period = ending%orbit
-         if (settled%period == 0) settled%period = near_orbit(problem, near_states(problem), states)
+         if (settled%period == 0 .and. group%verdicts(place)%class /= class_irregular_so_far) &
+            settled%period = near_orbit(problem, near_states(problem), states)
          settled%states = states(:, periods - max(1, settled%period) + 1:)
          if (settled%period == 0 .and. group%verdicts(place)%class == class_subharmonic .and. group%repeat_after(place) > 1) &
             call follow_on(problem, group%repeat_after(place), settled)
+         if (settled%period > 0) settled%rms_is_rough = modulo(periods, settled%period) > 0
          if (allocated(group%paths(place)%states)) settled%path = group%paths(place)%states
       end associate
    end function settled_of
@@ -216,7 +219,7 @@ contains
             call classify_group(resolved(scenes)%problem, choices(scenes), noise, request, space)
             if (allocated(space%error)) call move_alloc(space%error, error)
             if (must_stop() .or. allocated(error)) return
-            call follow_new(resolved(scenes)%problem, scenes, found, space)
+            call follow_new(resolved(scenes)%problem, scenes, trials(own)%is_own, found, space)
             do k = 1, size(own)
                call add_motion(resolved(scenes(k))%problem, request%samples_per_period, k, space, trials(own(k)), found(scenes(k)))
             end do
@@ -225,11 +228,13 @@ contains
 
    end subroutine solve_trials
 
-   !> Follow the motions that are off their harmonics, where all that are known repeat.
-   subroutine follow_new(problems, scenes, found, space)
+   !> Follow the motions that are off their harmonics: the ones from rest, and others where all that are known repeat.
+   subroutine follow_new(problems, scenes, are_own, found, space)
       type(problem_t), intent(in) :: problems(:)
       !> Places of their scenes in the batch
       integer, intent(in) :: scenes(:)
+      !> Whether they go on with the one from rest
+      logical, intent(in) :: are_own(:)
       type(row_motions_t), intent(in) :: found(:)
       type(scene_group_t), intent(inout) :: space
       type(rattle_verdict_t), allocatable :: verdicts(:)
@@ -255,7 +260,7 @@ contains
          is_new = .false.
          if (.not. has_window(space%endings(place))) return
          if (space%verdicts(place)%class /= class_irregular_so_far) return
-         is_new = all(found(scenes(place))%settled%period > 0)
+         is_new = are_own(place) .or. all(found(scenes(place))%settled%period > 0)
       end function is_new
 
    end subroutine follow_new
@@ -277,6 +282,7 @@ contains
 
       associate (ending => group%endings(place))
          if (.not. trial%is_own) found%told%starts_solved = found%told%starts_solved + 1
+         if (trial%is_own .and. is_success(ending%status)) trial%state = ending%numbers
          found%told%extra_periods = found%told%extra_periods + ending%periods
          known = ending%known
          trial%settled = ending%orbit > 0

@@ -9,8 +9,8 @@ module settled_motion
 
    !> Share of the gap by which films, and of the characteristic velocity by which velocities of one motion may differ [-].
    real(dp), parameter, public :: same_state = 0.01_dp
-   !> Relative difference of the acceleration rms up to which motions are the same [-].
-   real(dp), parameter, public :: same_rms = 0.05_dp
+   !> Relative difference of the acceleration rms up to which motions are the same, and where one of a part of a period is compared [-].
+   real(dp), parameter, public :: same_rms = 0.05_dp, rough_rms = 0.25_dp
 
    !> A motion that repeats.
    type, public :: settled_motion_t
@@ -20,6 +20,8 @@ module settled_motion
       real(dp), allocatable :: states(:, :)
       !> [m/s2]
       real(dp) :: acceleration_rms = 0.0_dp
+      !> Whether that is of a window which is no multiple of the period
+      logical :: rms_is_rough = .false.
       !> Films and velocities at the ends of many periods of an irregular one: number, period; not allocated: they are not known
       real(dp), allocatable :: path(:, :)
    end type settled_motion_t
@@ -30,20 +32,26 @@ contains
 
    !> Whether two motions of a problem are the same: from some period on they have the same states, and they shake as much. One may
    !> have been seen to repeat after a part of the period of the other: next to a doubling of the period its states differ by less
-   !> than those that count as one.
+   !> than those that count as one, and so each of them from one of the other by at most twice that.
    pure logical function same_motion(problem, one, other) result(same)
       type(problem_t), intent(in) :: problem
       type(settled_motion_t), intent(in) :: one
       type(settled_motion_t), intent(in) :: other
       type(known_motions_t) :: measure
+      real(dp) :: limit
       integer :: longer, shift, i
 
       same = .false.
       if (one%period == 0 .or. other%period == 0) return
       longer = max(one%period, other%period)
       if (modulo(longer, min(one%period, other%period)) /= 0) return
-      if (abs(one%acceleration_rms - other%acceleration_rms) > same_rms*max(one%acceleration_rms, other%acceleration_rms)) return
+      limit = merge(rough_rms, same_rms, one%rms_is_rough .or. other%rms_is_rough)
+      if (abs(one%acceleration_rms - other%acceleration_rms) > limit*max(one%acceleration_rms, other%acceleration_rms)) return
       measure = near_states(problem)
+      if (one%period /= other%period) then
+         measure%near_film = 2.0_dp*measure%near_film
+         measure%near_velocity = 2.0_dp*measure%near_velocity
+      end if
       do shift = 0, longer - 1
          same = all([(are_near(problem, measure, one%states(:, modulo(i - 1, one%period) + 1), &
                                other%states(:, modulo(i - 1 + shift, other%period) + 1)), i=1, longer)])

@@ -104,10 +104,22 @@ all_well "$job" || { show "$job"; fail 'a task of the array job of thresholds'; 
 $campaign merge threshold_array/threshold.part-*-of-3.rattle --output threshold_array/threshold.rattle 2> array.note || { cat array.note; fail merge; }
 same 'thresholds, array job, merged' threshold_array/threshold.rattle thresholds/threshold.rattle
 
-say 'a gearbox over speed and oil temperature, every class verified: array job and MPI jobs'
-sed 's/count = 25, 29/count = 7, 9/' "$repository/input/gearbox_map.nml" > gearbox.nml
+say 'thresholds whose sides overlap, on two ranks and on three'
+cp "$here/overlap.nml" .
+"$program" --quiet --threads 1 --output thresholds overlap.nml > alone.log 2>&1 || { tail alone.log; give_up 'overlapping thresholds'; }
+grep -Eq 'at [1-9][0-9]* of 3 crossings either side is possible' thresholds/overlap.log || fail 'no threshold has two sides'
+for ranks in 2 3; do
+    mpirun -n "$ranks" --oversubscribe --bind-to none "$program" --quiet --threads 2 --output "overlap_$ranks" overlap.nml
+    same "overlapping thresholds, $ranks ranks" "overlap_$ranks/overlap.rattle" thresholds/overlap.rattle
+done
+
+say 'a gearbox over speed and oil temperature with several motions, every class verified: array job and MPI jobs'
+sed -e 's/^   count = .*/   count = 3, 3/' -e 's/^   first = 600.0, .*/   first = 1400.0, 60.0/' -e 's/^   last = 3000.0, .*/   last = 2200.0, 120.0/' \
+    "$repository/input/gearbox_map.nml" > gearbox.nml
+grep -q 'count = 3, 3' gearbox.nml && grep -q 'first = 1400' gearbox.nml && grep -q 'last = 2200' gearbox.nml || give_up 'gearbox_map.nml has other lines'
 cp "$repository/input/gearbox_run_up.csv" .
 "$program" --quiet --threads 1 --output alone gearbox.nml > alone.log 2>&1 || { tail alone.log; give_up 'gearbox'; }
+grep -Eq '[1-9][0-9]* of 36 scenes have several motions' alone/gearbox.log || fail 'no scene of the gearbox has several motions'
 write_script gearbox_array gearbox --array 3 --time 00:10:00
 array=$(submit gearbox_array/gearbox.slurm)
 write_script gearbox_mpi gearbox --ranks 2 --time 00:10:00 --launcher 'srun --mpi=pmix'

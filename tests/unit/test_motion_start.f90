@@ -155,8 +155,18 @@ contains
       other = one
       other%acceleration_rms = 10.6_dp
       call checks%check(.not. same_motion(problem, one, other), 'another: by its rms')
+      other%rms_is_rough = .true.
+      call checks%check(same_motion(problem, one, other), 'same: its rms is that of a part of its period')
+      other%acceleration_rms = 14.0_dp
+      call checks%check(.not. same_motion(problem, one, other), 'another: by its rough rms')
       other = settled_motion_t(1, one%states(:, :1), 10.0_dp)
       call checks%check(.not. same_motion(problem, one, other), 'another: by its period')
+      ! Two periods whose states are a little more than a hundredth apart, met as one of a single period beyond one of them.
+      one%states(:, 2) = one%states(:, 1) + [1.1_dp*same_state*gap, 0.0_dp]
+      other%states(1, 1) = one%states(1, 2) + 0.8_dp*same_state*gap
+      call checks%check(same_motion(problem, one, other) .and. same_motion(problem, other, one), 'same: next to a doubling')
+      other%states(1, 1) = one%states(1, 2) + 1.1_dp*same_state*gap
+      call checks%check(.not. same_motion(problem, one, other), 'another: next to a doubling')
       one = settled_motion_t(0, reshape([real(dp) ::], [2, 0]), 10.0_dp)
       call checks%check(.not. same_motion(problem, one, one), 'another: neither repeats')
    end subroutine test_same_motion

@@ -185,3 +185,27 @@ def test_a_scene_that_fails_has_no_motions(run, folder: Path) -> None:
     for name in result.columns:
         if name.startswith(OF_STARTS):
             np.testing.assert_array_equal(np.isnan(result[name]), failed, err_msg=name)
+
+
+def test_a_motion_that_settles_slowly_is_told_once(run, repository: Path, tmp_path: Path) -> None:
+    """After 60 periods the motion from rest still creeps along, far from where others have settled."""
+    text = (repository / "input" / "gearbox_map.nml").read_text()
+    pairs = text.split("&gear\n")
+    shaft = pairs[-1].index("&shaft\n")
+    text = pairs[0] + "&gear\n" + pairs[-1][: pairs[-1].index("&campaign\n", shaft)]
+    (tmp_path / "gearbox_run_up.csv").write_bytes((repository / "input" / "gearbox_run_up.csv").read_bytes())
+    (tmp_path / "scene.nml").write_text(
+        f"{text}&campaign vary = 'oil.temperature_celsius', values(:, 1) = 80.0\n"
+        f"   record = {COLUMNS}, 'orbit_period' /\n"
+    )
+    row = package.read(solve(run, tmp_path, "--set", "shaft.speed_rpm=1800.0"))
+    assert row["orbit_period"][0] == 0.0
+    assert (row["motions"][0], row["unsettled_starts"][0]) == (1.0, 0.0)
+    alone = tmp_path / "alone.nml"
+    alone.write_text(text.replace("'campaign'", "'motion'"))
+    keys = ("shaft.speed_rpm=1800.0", "oil.temperature_celsius=80.0", "solver.periods=200")
+    ended = run(*(word for key in keys for word in ("--set", key)), alone, cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    told = summary_of(tmp_path / "results" / "alone.summary.nml")
+    assert told["motions"] == 1
+    assert row["loudest_acceleration_rms"][0] == pytest.approx(told["acceleration_rms"], rel=1e-4)
