@@ -63,7 +63,8 @@ contains
       type(lane_samples_t), intent(inout) :: samples
       !> Of all scenes: sample, number of its state, scene
       real(dp), contiguous, intent(inout) :: states(:, :, :)
-      real(dp) :: x(together), film(together), velocity(together), film_series(0:order), lienard_series(0:order)
+      real(dp), dimension(together) :: x, film, velocity, compression
+      real(dp) :: film_series(0:order), lienard_series(0:order)
       real(dp) :: due_until, number
       integer :: l, i, due, last, first, flank
 
@@ -87,11 +88,9 @@ contains
             states(first:first + due - 1, of_film, samples%column(l)) = film(:due)*block%film_scale(l)
             states(first:first + due - 1, of_velocity, samples%column(l)) = velocity(:due)*block%velocity_scale(l)
             do flank = 1, springs_of(l, block)
-               film_series = block%compression(l, flank, :)
-               call evaluate_lane(film_series, lienard_series, 0.0_dp, huge(1.0_dp), x, film, velocity)
-               states(first:first + due - 1, of_velocity + flank, samples%column(l)) = film(:due)*block%film_scale(l)
+               call evaluate_series(block%compression(l, flank, :), x, compression)
+               states(first:first + due - 1, of_velocity + flank, samples%column(l)) = compression(:due)*block%film_scale(l)
             end do
-            if (springs_of(l, block) > 0) film_series = block%film(l, :)
             if (inner(l)%count > 0) call evaluate_inner(inner(l), x(:due), &
                states(first:first + due - 1, of_velocity + springs_of(l, block) + 1:of_velocity + springs_of(l, block) &
                       + size(inner(l)%now), samples%column(l)))
@@ -167,5 +166,22 @@ contains
       end do
       if (backlash < huge(1.0_dp)) velocity = velocity - slip/sqrt(backlash - film)
    end subroutine evaluate_lane
+
+   !> A series of one lane at several distances from its point of expansion.
+   pure subroutine evaluate_series(series, x, values)
+      real(dp), intent(in) :: series(0:order)
+      !> Distances [periods]
+      real(dp), intent(in) :: x(together)
+      real(dp), intent(out) :: values(together)
+      integer :: i, k
+
+      values = series(order)
+      do k = order - 1, 0, -1
+         !$omp simd
+         do i = 1, together
+            values(i) = values(i)*x(i) + series(k)
+         end do
+      end do
+   end subroutine evaluate_series
 
 end module lane_sampling
