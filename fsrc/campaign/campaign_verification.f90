@@ -12,7 +12,7 @@ module campaign_verification
    use verify_scene, only: nearby_orbit, tighten
    use engine, only: motion_state_t, request_t, start_of
    use kinds, only: dp
-   use node_extremes, only: seen_acceleration, seen_coast_film, seen_film, seen_load, seen_net_load, seen_quantities
+   use node_extremes, only: seen_acceleration, seen_films, seen_loads, seen_net_load, seen_quantities
    use periodic_orbit, only: attracting_period
    use carried_loads, only: films_of
    use problem, only: of_film, problem_t
@@ -28,7 +28,7 @@ module campaign_verification
    private
 
    !> Extremes that windows are compared by
-   integer, parameter, public :: compared(3) = [seen_film, seen_coast_film, seen_acceleration]
+   integer, parameter, public :: compared(3) = [seen_films, seen_acceleration]
 
    public :: verify_group
 
@@ -70,7 +70,7 @@ contains
       wants = .false.
       wants(compared) = .true.
       if (present(agree)) then
-         wants([seen_load, seen_net_load]) = .true.
+         wants([seen_loads(1), seen_net_load]) = .true.
          call solve_group(resolved(tested)%problem, starts(tested), tighter, wants, tight, choices(tested)%impact_limit)
       else
          call solve_group(resolved(tested)%problem, starts(tested), tighter, wants, tight)

@@ -9,7 +9,7 @@ module row_motions
    use kinds, only: dp
    use lyapunov, only: path_t
    use known_motions, only: are_near, known_motions_t
-   use node_extremes, only: seen_film, seen_load, seen_net_load, seen_quantities
+   use node_extremes, only: seen_films, seen_loads, seen_net_load, seen_quantities
    use periodic_orbit, only: map_states
    use problem, only: problem_t, state_size
    use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, rattle_verdict_t
@@ -144,7 +144,7 @@ contains
       told%starts = 1
       told%acceleration_rms = severity%acceleration_rms
       told%film_force_rms = severity%film_force_rms
-      told%film_minimum = group%records(place)%lowest(seen_film)%value
+      told%film_minimum = group%records(place)%lowest(seen_films(1))%value
    end function told_of
 
    !> Periods of the force after which the states of a window come again near enough, 0 if they do not within half of it.
@@ -212,8 +212,8 @@ contains
                noise(k) = resolved(scenes(k))%noise_floor_at(request%accuracy)
             end do
             wants = .false.
-            wants(seen_film) = .true.
-            wants([seen_load, seen_net_load]) = with_verdicts
+            wants(seen_films(1)) = .true.
+            wants([seen_loads(1), seen_net_load]) = with_verdicts
             call solve_group(resolved(scenes)%problem, starts, request, wants, space, &
                              merge(choices(scenes)%impact_limit, 0.0_dp, with_verdicts), known)
             call classify_group(resolved(scenes)%problem, choices(scenes), noise, request, space)

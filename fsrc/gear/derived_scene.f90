@@ -39,7 +39,7 @@ contains
       scene%contact%length = contact%length
       scene%contact%backlash = scene%gear%backlash
       scene%contact%tooth_width = contact%tooth_width
-      scene%contact%stiffness = scene%contact%flank_stiffness(scene%gear%tooth_stiffness)
+      scene%contact%stiffness = scene%contact%stiffness_of_width(scene%gear%tooth_stiffness)
       scene%kinematics%entrainment_speed = contact%entrainment_speed
       scene%excitation%mass = contact%mass
       scene%excitation%steady_force = contact%steady_force

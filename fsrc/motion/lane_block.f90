@@ -16,7 +16,7 @@ module lane_block
    use load_expansion, only: load_expansion_t, squeeze_expansion_t
    use memory, only: allocate_lines
    use carried_loads, only: net_loads
-   use problem, only: compression_count, flank_count, has_elastic_teeth, has_two_flanks, of_drive_compression, of_film, &
+   use problem, only: compression_count, contact_count, has_elastic_teeth, has_two_flanks, of_drive_compression, of_film, &
       of_velocity, problem_t, reference_film, reference_films, settling_of, settling_t, static_load, thinner_film
    use radau_nodes, only: stages
    use reynolds_piezo_expansion, only: reynolds_piezo_expansion_t
@@ -125,7 +125,7 @@ contains
       if (has_elastic_teeth(problem)) then
          if (start%numbers(of_film) <= 0.0_dp) return
          start_status = merge(status_complete, status_overflow, &
-                              maxval(abs(start%numbers(of_drive_compression:of_velocity + flank_count(problem)))) &
+                              maxval(abs(start%numbers(of_drive_compression:of_velocity + contact_count(problem)))) &
                               < overflow_load*problem%contact%compliance)
          return
       end if

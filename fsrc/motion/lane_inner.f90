@@ -3,7 +3,7 @@
 module lane_inner
    use engine, only: motion_state_t
    use kinds, only: dp
-   use problem, only: flank_count, inner_places, problem_t, state_numbers
+   use problem, only: contact_count, inner_places, problem_t, state_numbers
    use radau_nodes, only: stages
    implicit none(type, external)
    private
@@ -36,7 +36,7 @@ contains
       inner%count = places(2) - places(1) + 1
       if (inner%count == 0) return
       first = places(1)
-      places = inner_places(problem, flank_count(problem))
+      places = inner_places(problem, contact_count(problem))
       last = places(2)
       allocate (inner%now(last - first + 1), source=start%numbers(first:last))
       allocate (inner%next(last - first + 1), source=start%numbers(first:last))

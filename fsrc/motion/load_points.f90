@@ -1,15 +1,13 @@
-!> Points of the load W of a film in a piece of a step: its nodes, its ends, where W turns, and where it iterations a level. Between
+!> Points of the load W of a film in a piece of a step: its nodes, its ends, where W turns, and where it passes a level. Between
 !> the nodes film and velocity are interpolated, and W follows from them by its own law.
 module load_points
-   use carried_loads, only: coast_loads, drive_loads
+   use carried_loads, only: contact_loads
    use kinds, only: dp
    use node_extremes, only: narrow, top_of_parabola
    use problem, only: of_velocity, problem_t
    use step_nodes, only: interpolate, node_place, nodes_per_piece
    implicit none(type, external)
    private
-
-   integer, parameter, public :: drive_flank = 1, coast_flank = 2
 
    !> Points of a piece: its nodes, its ends and the turns between.
    integer, parameter :: most_points = 2*nodes_per_piece + 4
@@ -26,9 +24,9 @@ module load_points
 contains
 
    !> W and the velocity of the gear at a place in a piece.
-   pure subroutine load_at(problem, flank, states, piece, place, load, velocity)
+   pure subroutine load_at(problem, contact, states, piece, place, load, velocity)
       type(problem_t), intent(in) :: problem
-      integer, intent(in) :: flank
+      integer, intent(in) :: contact
       real(dp), intent(in) :: states(:, :)
       integer, intent(in) :: piece
       real(dp), intent(in) :: place
@@ -37,19 +35,15 @@ contains
       real(dp) :: here(1, size(states, 2)), loads(1)
 
       call interpolate(states, piece, place, here(1, :))
-      if (flank == drive_flank) then
-         call drive_loads(problem, here, loads)
-      else
-         call coast_loads(problem, here, loads)
-      end if
+      call contact_loads(problem, contact, here, loads)
       load = loads(1)
       velocity = here(1, of_velocity)
    end subroutine load_at
 
    !> Points of W in a piece.
-   pure subroutine find_points(problem, flank, states, piece, loads, points)
+   pure subroutine find_points(problem, contact, states, piece, loads, points)
       type(problem_t), intent(in) :: problem
-      integer, intent(in) :: flank
+      integer, intent(in) :: contact
       real(dp), intent(in) :: states(:, :)
       integer, intent(in) :: piece
       !> At the nodes [N]
@@ -61,8 +55,8 @@ contains
       x = [0.0_dp, node_place, 1.0_dp]
       y(1:nodes_per_piece) = loads
       v(1:nodes_per_piece) = states(nodes_per_piece*(piece - 1) + 1:nodes_per_piece*piece, of_velocity)
-      call load_at(problem, flank, states, piece, x(0), y(0), v(0))
-      call load_at(problem, flank, states, piece, x(nodes_per_piece + 1), y(nodes_per_piece + 1), v(nodes_per_piece + 1))
+      call load_at(problem, contact, states, piece, x(0), y(0), v(0))
+      call load_at(problem, contact, states, piece, x(nodes_per_piece + 1), y(nodes_per_piece + 1), v(nodes_per_piece + 1))
       call add(x(0), y(0), v(0), .false., points)
       call add_turn_at_end(0, points)
       do i = 1, nodes_per_piece
@@ -112,7 +106,7 @@ contains
          sign_of = merge(1.0_dp, -1.0_dp, (y(k + 1) - y(k))*(x(k) - x(k - 1)) < (y(k) - y(k - 1))*(x(k + 1) - x(k)))
          call top_of_parabola(x(k - 1:k + 1), sign_of*y(k - 1:k + 1), top, estimate)
          if (.not. (top > x(first) .and. top < x(first + 1))) return
-         call load_at(problem, flank, states, piece, top, here, speed)
+         call load_at(problem, contact, states, piece, top, here, speed)
          if (.not. sign_of*here > max(sign_of*y(first), sign_of*y(first + 1))) return
          call find_turn([x(first), top, x(first + 1)], [y(first), here, y(first + 1)], speed, place, load, velocity)
          call add(place, load, velocity, .true., points)
@@ -142,7 +136,7 @@ contains
             call top_of_parabola(at, height, top, estimate)
             if (.not. (top > at(1) .and. top < at(3))) exit
             if (abs(top - at(2)) < same_place) exit
-            call load_at(problem, flank, states, piece, top, here, estimate)
+            call load_at(problem, contact, states, piece, top, here, estimate)
             if (sign_of*here > sign_of*load) then
                place = top
                load = here
@@ -154,11 +148,11 @@ contains
 
    end subroutine find_points
 
-   !> Where W iterations a level between two points that stand on both sides of it: false position, where one end that stays counts
+   !> Where W passes a level between two points that stand on both sides of it: false position, where one end that stays counts
    !> half (Illinois).
-   pure subroutine find_crossing(problem, flank, states, piece, points, second, level, place, load, velocity)
+   pure subroutine find_crossing(problem, contact, states, piece, points, second, level, place, load, velocity)
       type(problem_t), intent(in) :: problem
-      integer, intent(in) :: flank
+      integer, intent(in) :: contact
       real(dp), intent(in) :: states(:, :)
       integer, intent(in) :: piece
       type(piece_points_t), intent(in) :: points
@@ -185,7 +179,7 @@ contains
          if (x(2) - x(1) < same_place) exit
          place = (x(1)*y(2) - x(2)*y(1))/(y(2) - y(1))
          if (.not. (place > x(1) .and. place < x(2))) place = 0.5_dp*(x(1) + x(2))
-         call load_at(problem, flank, states, piece, place, load, velocity)
+         call load_at(problem, contact, states, piece, place, load, velocity)
          if (abs(load - level) <= same_load*level) exit
          side = merge(1, 2, load - level > 0.0_dp .eqv. y(1) > 0.0_dp)
          x(side) = place

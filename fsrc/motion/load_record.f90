@@ -3,11 +3,11 @@
 !> The loads are told to module impacts as points in the order of time: those of module load_points, and where W passes F_max. A
 !> piece of a step in which W stays far below F_max is one low point.
 module load_record
-   use carried_loads, only: coast_loads, drive_loads
+   use carried_loads, only: contact_loads
    use impacts, only: impact_watch_t, load_point_t, point_fall, point_low, point_passing, point_rise, tell_load
    use kinds, only: dp
-   use load_points, only: coast_flank, drive_flank, find_crossing, find_points, load_at, piece_points_t
-   use problem, only: has_two_flanks, largest_applied_force, of_velocity, problem_t, static_load
+   use load_points, only: find_crossing, find_points, load_at, piece_points_t
+   use problem, only: closing_velocity, contact_count, largest_applied_force, most_contacts, of_velocity, problem_t, static_load
    use scene_types, only: least_static_load
    use step_nodes, only: node_place, node_weight, nodes_per_piece
    use value_range, only: range_of
@@ -16,14 +16,15 @@ module load_record
 
    !> How far W may leave the range of the nodes of its piece, as a share of this range.
    real(dp), parameter :: beyond_nodes = 0.5_dp
-   !> The drive film is unloaded below this share of the static load.
+   !> A film is unloaded below this share of the static load, and the contact for which it is told: that of the drive flank.
    real(dp), parameter :: unloaded_share = 0.01_dp
+   integer, parameter :: loaded_contact = 1
 
    !> Record of the loads.
    type, public :: load_record_t
       !> What is asked for: loads above this multiple of F_max are impacts; 0: nothing is recorded
       real(dp) :: impact_limit = 0.0_dp
-      type(impact_watch_t) :: flanks(2) = impact_watch_t()
+      type(impact_watch_t) :: contacts(most_contacts) = impact_watch_t()
       !> Load below which the drive film is unloaded [N], and for how long [periods]
       real(dp) :: unloaded_level = 0.0_dp
       real(dp) :: unloaded = 0.0_dp
@@ -43,18 +44,18 @@ contains
       largest_force = largest_applied_force(problem)
       ! Without a force there is nothing that a load could exceed.
       if (largest_force >= least_static_load) then
-         record%flanks%level = largest_force
-         record%flanks%limit = record%impact_limit*largest_force
+         record%contacts%level = largest_force
+         record%contacts%limit = record%impact_limit*largest_force
       end if
       record%unloaded_level = unloaded_share*merge(abs(static_load(problem)), largest_force, &
                                                    abs(static_load(problem)) >= least_static_load)
    end subroutine start_loads
 
    !> Add some pieces of steps.
-   pure subroutine record_loads(problem, flank, period, start, length, states, loads, record)
+   pure subroutine record_loads(problem, contact, period, start, length, states, loads, record)
       type(problem_t), intent(in) :: problem
-      !> Which film
-      integer, intent(in) :: flank
+      !> Number of the contact
+      integer, intent(in) :: contact
       !> Periods since the window began
       integer, intent(in) :: period
       !> Phase where each piece begins, and its length [periods]
@@ -68,25 +69,25 @@ contains
       real(dp) :: smallest, largest, room, low
       integer :: piece, before
 
-      low = low_load(record%flanks(flank))
+      low = low_load(record%contacts(contact))
       do piece = 1, size(start)
          before = nodes_per_piece*(piece - 1)
          call range_of(loads(before + 1:before + nodes_per_piece), smallest, largest)
          room = beyond_nodes*(largest - smallest)
          points%count = 0
          if (largest + room < low) then
-            call tell_low(real(period, dp) + start(piece), record%flanks(flank))
+            call tell_low(real(period, dp) + start(piece), record%contacts(contact))
          else
-            call find_points(problem, flank, states, piece, loads(before + 1:before + nodes_per_piece), points)
-            call tell_piece(problem, flank, real(period, dp) + start(piece), length(piece), states, piece, &
-                            loads(before + 1:before + nodes_per_piece), points, record%flanks(flank))
+            call find_points(problem, contact, states, piece, loads(before + 1:before + nodes_per_piece), points)
+            call tell_piece(problem, contact, real(period, dp) + start(piece), length(piece), states, piece, &
+                            loads(before + 1:before + nodes_per_piece), points, record%contacts(contact))
          end if
-         if (flank /= drive_flank) cycle
+         if (contact /= loaded_contact) cycle
          if (largest + room < record%unloaded_level) then
             record%unloaded = record%unloaded + length(piece)
          else if (smallest - room < record%unloaded_level) then
             if (points%count == 0) &
-               call find_points(problem, flank, states, piece, loads(before + 1:before + nodes_per_piece), points)
+               call find_points(problem, contact, states, piece, loads(before + 1:before + nodes_per_piece), points)
             record%unloaded = record%unloaded + length(piece)*share_below(problem, states, piece, points, record%unloaded_level)
          end if
       end do
@@ -109,9 +110,9 @@ contains
    end subroutine tell_low
 
    !> Tell the points of a piece.
-   pure subroutine tell_piece(problem, flank, start, length, states, piece, loads, points, watch)
+   pure subroutine tell_piece(problem, contact, start, length, states, piece, loads, points, watch)
       type(problem_t), intent(in) :: problem
-      integer, intent(in) :: flank
+      integer, intent(in) :: contact
       !> Time where the piece begins, and its length [periods]
       real(dp), intent(in) :: start
       real(dp), intent(in) :: length
@@ -132,7 +133,7 @@ contains
       call tell(merge(point_low, point_passing, points%load(1) < low), 0.0_dp, points%load(1), points%velocity(1), total, watch)
       do i = 2, points%count
          if (points%load(i - 1) > watch%level .neqv. points%load(i) > watch%level) then
-            call find_crossing(problem, flank, states, piece, points, i, watch%level, place, load, velocity)
+            call find_crossing(problem, contact, states, piece, points, i, watch%level, place, load, velocity)
             if (watch%above) call add_integral(place, summed, total)
             summed = place
             call tell(merge(point_fall, point_rise, watch%above), place, watch%level, velocity, total, watch)
@@ -154,7 +155,7 @@ contains
          type(impact_watch_t), intent(inout) :: watch
 
          call tell_load(load_point_t(time=start + place*length, load=load, &
-                                     velocity=merge(-velocity, velocity, flank == drive_flank), sum=total, kind=kind_of), watch)
+                                     velocity=closing_velocity(contact, velocity), sum=total, kind=kind_of), watch)
       end subroutine tell
 
       !> Take the integral of W up to a place into the sum.
@@ -171,7 +172,7 @@ contains
             part = sum(node_weight*loads)
          else
             do k = 1, nodes_per_piece
-               call load_at(problem, flank, states, piece, summed + (place - summed)*node_place(k), load, velocity)
+               call load_at(problem, contact, states, piece, summed + (place - summed)*node_place(k), load, velocity)
                part = part + (place - summed)*node_weight(k)*load
             end do
          end if
@@ -196,7 +197,7 @@ contains
       do i = 2, points%count
          associate (x => points%place(i - 1:i), is_below => points%load(i - 1:i) < level)
             if (is_below(1) .neqv. is_below(2)) then
-               call find_crossing(problem, drive_flank, states, piece, points, i, level, place, load, velocity)
+               call find_crossing(problem, loaded_contact, states, piece, points, i, level, place, load, velocity)
                share = share + merge(place - x(1), x(2) - place, is_below(1))
             else if (is_below(1)) then
                share = share + (x(2) - x(1))
@@ -213,35 +214,30 @@ contains
       real(dp), intent(in) :: states(:, :)
       type(load_record_t), intent(inout) :: record
       real(dp) :: loads(0:size(states, 1))
-      integer :: flank, n
+      integer :: contact, n
 
       n = size(states, 1)
-      do flank = drive_flank, merge(coast_flank, drive_flank, has_two_flanks(problem))
-         if (flank == drive_flank) then
-            call drive_loads(problem, states, loads(1:))
-         else
-            call coast_loads(problem, states, loads(1:))
-         end if
+      do contact = 1, contact_count(problem)
+         call contact_loads(problem, contact, states, loads(1:))
          loads(0) = loads(n)
-         call tell_samples(flank, loads, [states(n, of_velocity), states(:, of_velocity)], samples_per_period, &
-                           record%flanks(flank))
-         if (flank == drive_flank) record%unloaded = time_below(loads, record%unloaded_level)/real(samples_per_period, dp)
+         call tell_samples(contact, loads, [states(n, of_velocity), states(:, of_velocity)], samples_per_period, &
+                           record%contacts(contact))
+         if (contact == loaded_contact) record%unloaded = time_below(loads, record%unloaded_level)/real(samples_per_period, dp)
       end do
    end subroutine record_load_samples
 
    !> Tell samples of W.
-   pure subroutine tell_samples(flank, loads, velocities, samples_per_period, watch)
-      integer, intent(in) :: flank
+   pure subroutine tell_samples(contact, loads, velocities, samples_per_period, watch)
+      integer, intent(in) :: contact
       !> The last one, and all of them
       real(dp), intent(in) :: loads(0:)
       real(dp), intent(in) :: velocities(0:)
       integer, intent(in) :: samples_per_period
       type(impact_watch_t), intent(inout) :: watch
-      real(dp) :: total, step, share, toward, low
+      real(dp) :: total, step, share, low
       integer :: i
 
       step = 1.0_dp/real(samples_per_period, dp)
-      toward = merge(-1.0_dp, 1.0_dp, flank == drive_flank)
       low = low_load(watch)
       total = 0.0_dp
       call tell(point_passing, 0.0_dp, loads(0), velocities(0), total, watch)
@@ -271,7 +267,8 @@ contains
          real(dp), intent(in) :: total
          type(impact_watch_t), intent(inout) :: watch
 
-         call tell_load(load_point_t(time=time, load=load, velocity=toward*velocity, sum=total, kind=kind_of), watch)
+         call tell_load(load_point_t(time=time, load=load, velocity=closing_velocity(contact, velocity), sum=total, &
+                                     kind=kind_of), watch)
       end subroutine tell
 
    end subroutine tell_samples

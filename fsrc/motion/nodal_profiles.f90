@@ -9,9 +9,9 @@ module nodal_profiles
    implicit none(type, external)
    private
 
-   !> A profile: flank, time since the window began [periods], load M, and P and H at the nodes.
+   !> A profile: number of the contact, time since the window began [periods], load M, and P and H at the nodes.
    type, public :: nodal_profile_t
-      integer :: flank = 0
+      integer :: contact = 0
       real(dp) :: time = 0.0_dp, load = 0.0_dp
       real(dp), allocatable :: pressures(:), films(:)
    end type nodal_profile_t
@@ -96,7 +96,7 @@ contains
       !> Whole periods since the window began
       integer, intent(in) :: period
 
-      profile%flank = flank
+      profile%contact = flank
       profile%time = real(period, dp) + motion%time(place)
       associate (film => motion%flanks(flank))
          profile%load = film%load(place)
@@ -137,7 +137,7 @@ contains
       integer :: i, j, found
 
       if (size(times) == 0) then
-         allocate (chosen(merge(1, 0, profiles%largest(flank)%flank == flank)))
+         allocate (chosen(merge(1, 0, profiles%largest(flank)%contact == flank)))
          if (size(chosen) > 0) chosen(1) = profiles%largest(flank)
          return
       end if
@@ -146,7 +146,7 @@ contains
          found = 0
          nearest = huge(1.0_dp)
          do j = 1, profiles%count
-            if (profiles%kept(j)%flank /= flank) cycle
+            if (profiles%kept(j)%contact /= flank) cycle
             ! A window whose motion repeats has no ends.
             away = abs(modulo(profiles%kept(j)%time - times(i) + 0.5_dp*real(periods, dp), real(periods, dp)) &
                        - 0.5_dp*real(periods, dp))

@@ -4,7 +4,7 @@ module nodal_state
    use kinds, only: dp
    use nodal_flank, only: difference_times, kept_times, nodal_flank_t
    use nodal_step, only: motion_t
-   use problem, only: flank_count, problem_t, state_size
+   use problem, only: contact_count, problem_t, state_size
    implicit none(type, external)
    private
 
@@ -22,7 +22,7 @@ contains
       integer, parameter :: of_flank = 5*(kept_times + 1) + 9, of_gear = 3*(kept_times + 1) + 3
 
       size_of_motion = of_gear + (kept_times + 1)*state_size(problem) &
-                       + flank_count(problem)*(of_flank + nodes*(kept_times + 1 + difference_times))
+                       + contact_count(problem)*(of_flank + nodes*(kept_times + 1 + difference_times))
    end function size_of_motion
 
    !> The numbers of a motion.
@@ -37,7 +37,7 @@ contains
       integer :: flank
 
       numbers = [motion%position, motion%velocity, motion%time, real(motion%known, dp), motion%step, motion%fastest, motion%states]
-      do flank = 1, flank_count(problem)
+      do flank = 1, contact_count(problem)
          associate (film => motion%flanks(flank))
             pressures = 0.0_dp
             volumes = 0.0_dp
@@ -76,7 +76,7 @@ contains
       allocate (motion%states(0:kept_times, state_size(problem)))
       motion%states(:, :) = reshape(taken(next, size(motion%states)), shape(motion%states))
       next = next + size(motion%states)
-      do flank = 1, flank_count(problem)
+      do flank = 1, contact_count(problem)
          call unpack_flank(motion%flanks(flank), next)
       end do
 

@@ -16,7 +16,7 @@ module nodal_step
                           may_soften, nodal_contact_t, nodal_flank_t, respond, share_that_leaves_a_film, soften, &
                           step_weights_t, stiffen
    use nodal_tangent, only: advance_tangent, nodal_tangent_t, soften_tangent, stiffen_tangent
-   use problem, only: flank_count, has_two_flanks, largest_applied_force, of_film, of_velocity, problem_t, state_size
+   use problem, only: contact_count, has_two_flanks, largest_applied_force, of_film, of_velocity, problem_t, state_size
    use scene_status, only: status_film_cycles, status_film_torn
    implicit none(type, external)
    private
@@ -106,7 +106,7 @@ contains
          gear%time_unit = oil%film_unit/oil%velocity_unit
          gear%period = 1.0_dp/(problem%frequency*gear%time_unit)
          gear%mass = problem%mass*oil%film_unit/(gear%time_unit**2*oil%load_unit)
-         gear%flanks = flank_count(problem)
+         gear%flanks = contact_count(problem)
          gear%free_velocity = largest_applied_force(problem)/(oil%load_unit*gear%mass)*gear%period/two_pi
          gear%velocity_floor = floor_share*gear%free_velocity
          gear%load_floor = min(largest_floor, largest_applied_force(problem)/oil%load_unit)
@@ -258,10 +258,10 @@ contains
       real(dp) :: films(2, 2)
 
       distance = abs(one(of_velocity) - other(of_velocity))/fastest
-      films(1, :flank_count(problem)) = reshape(films_of(problem, reshape(one, [1, size(one)])), [flank_count(problem)])
-      films(2, :flank_count(problem)) = reshape(films_of(problem, reshape(other, [1, size(other)])), [flank_count(problem)])
-      distance = max(distance, maxval(abs(films(1, :flank_count(problem)) - films(2, :flank_count(problem))) &
-                                      /films(2, :flank_count(problem))))
+      films(1, :contact_count(problem)) = reshape(films_of(problem, reshape(one, [1, size(one)])), [contact_count(problem)])
+      films(2, :contact_count(problem)) = reshape(films_of(problem, reshape(other, [1, size(other)])), [contact_count(problem)])
+      distance = max(distance, maxval(abs(films(1, :contact_count(problem)) - films(2, :contact_count(problem))) &
+                                      /films(2, :contact_count(problem))))
    end function distance_of_states
 
    !> Weights of a step of some order, and of a prediction by some points.

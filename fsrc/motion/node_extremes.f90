@@ -4,21 +4,19 @@
 !> film and velocity are interpolated in the piece of the step, the quantity follows from them by its own law, and the
 !> parabola is renewed until it stands.
 module node_extremes
-   use film_state, only: load_t
    use kinds, only: dp
-   use carried_loads, only: acceleration_at, coast_films, coast_loads, drive_loads, gear_positions, largest_pressures, &
-      net_load, net_loads, pressure_of_film
-   use problem, only: has_inner_numbers, has_two_flanks, of_film, of_velocity, problem_t
+   use carried_loads, only: acceleration_at, contact_film, contact_load, gear_positions, largest_pressure, net_loads
+   use problem, only: contact_count, most_contacts, of_velocity, problem_t
    use step_nodes, only: interpolate, node_place, nodes_per_piece
    use value_range, only: range_of
    implicit none(type, external)
    private
 
-   !> Quantities whose extremes are looked for: h [m], z' [m/s], z'' [m/s2], load of the drive film [N], largest pressure of the
-   !> Reynolds films [Pa]; where there are two flanks load of the coast film and net load [N]; of elastic teeth film of the coast
-   !> flank and position of the gear [m].
-   integer, parameter, public :: seen_film = 1, seen_velocity = 2, seen_acceleration = 3, seen_load = 4, seen_pressure = 5, &
-                                 seen_coast_load = 6, seen_net_load = 7, seen_coast_film = 8, seen_position = 9
+   !> Quantities whose extremes are looked for: h [m] and load [N] of each contact; z' [m/s], z'' [m/s2], largest pressure of the
+   !> Reynolds films [Pa]; where there are several contacts their net load [N]; where it is not that of a film, position of the
+   !> gear [m].
+   integer, parameter, public :: seen_films(most_contacts) = [1, 8], seen_velocity = 2, seen_acceleration = 3, &
+                                 seen_loads(most_contacts) = [4, 6], seen_pressure = 5, seen_net_load = 7, seen_position = 9
    integer, parameter, public :: seen_quantities = 9
 
    !> Pieces that are looked at together, at most: their arrays stay in the cache.
@@ -47,7 +45,7 @@ module node_extremes
       logical :: exists = .false.
    end type extreme_t
 
-   public :: find_extremes, narrow, top_of_parabola
+   public :: find_extremes, narrow, seen_net_load_of, top_of_parabola
 
 contains
 
@@ -214,45 +212,37 @@ contains
          real(dp), intent(out) :: state(:)
          real(dp), intent(out) :: quantity_there
          real(dp) :: value(1)
-         type(load_t) :: load
-         logical :: alone
+         integer :: contact
 
          call interpolate(states, piece, x, state)
-         ! One film is not worth the registers of many.
-         alone = .not. (has_two_flanks(problem) .or. has_inner_numbers(problem))
          select case (quantity)
-         case (seen_film)
-            value = state(of_film)
          case (seen_velocity)
             value = state(of_velocity)
          case (seen_acceleration)
             value = acceleration_at(problem, state, min(1.0_dp, start(piece) + x*length(piece)))
          case (seen_pressure)
-            if (alone) then
-               value = pressure_of_film(problem, state(of_film), state(of_velocity))
-            else
-               call largest_pressures(problem, reshape(state, [1, size(state)]), value)
-            end if
-         case (seen_coast_load)
-            call coast_loads(problem, reshape(state, [1, size(state)]), value)
+            value = largest_pressure(problem, state)
          case (seen_net_load)
             call net_loads(problem, reshape(state, [1, size(state)]), value)
-         case (seen_coast_film)
-            value = coast_films(problem, reshape(state, [1, size(state)]))
          case (seen_position)
             value = gear_positions(problem, reshape(state, [1, size(state)]))
          case default
-            if (alone) then
-               call net_load(problem, state(of_film), state(of_velocity), load)
-               value = load%load
-            else
-               call drive_loads(problem, reshape(state, [1, size(state)]), value)
-            end if
+            do contact = 1, most_contacts
+               if (quantity == seen_films(contact)) value = contact_film(problem, contact, state)
+               if (quantity == seen_loads(contact)) value = contact_load(problem, contact, state)
+            end do
          end select
          quantity_there = value(1)
       end subroutine evaluate
 
    end subroutine find_extremes
+
+   !> Code of what all contacts carry together: of a single one its load.
+   pure integer function seen_net_load_of(problem)
+      type(problem_t), intent(in) :: problem
+
+      seen_net_load_of = merge(seen_net_load, seen_loads(1), contact_count(problem) > 1)
+   end function seen_net_load_of
 
    !> Take a point into three that stand around a peak, and leave out the one that is farthest from it.
    pure subroutine narrow(x, y, place, value)

@@ -9,12 +9,11 @@ module window_record
    use force, only: forces_on_circle
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
-   use load_points, only: coast_flank, drive_flank
    use load_record, only: load_record_t, record_loads, start_loads
-   use node_extremes, only: block_nodes, block_pieces, extreme_t, find_extremes, seen_acceleration, seen_coast_film, &
-      seen_coast_load, seen_film, seen_load, seen_net_load, seen_position, seen_pressure, seen_quantities, seen_velocity
-   use carried_loads, only: coast_films, coast_loads, drive_loads, gear_positions, largest_pressures
-   use problem, only: has_elastic_teeth, has_two_flanks, of_film, of_velocity, problem_t, static_load
+   use node_extremes, only: block_nodes, block_pieces, extreme_t, find_extremes, seen_acceleration, seen_films, seen_loads, &
+      seen_net_load, seen_position, seen_pressure, seen_quantities, seen_velocity
+   use carried_loads, only: contact_films, contact_loads, gear_positions, largest_pressures
+   use problem, only: contact_count, has_own_position, most_contacts, of_velocity, problem_t, static_load
    use step_nodes, only: node_place, node_weight, nodes_per_piece, step_nodes_t
    implicit none(type, external)
    private
@@ -135,13 +134,13 @@ contains
       !> States at the nodes
       real(dp), intent(in) :: states(:, :)
       type(window_record_t), intent(inout) :: record
-      real(dp), dimension(block_nodes) :: phases, weights, values, loads, coast, forces, cosine, sine, films, velocities
+      real(dp), dimension(block_nodes) :: phases, weights, values, loads, forces, cosine, sine, velocities
+      real(dp) :: carried(block_nodes, most_contacts)
       real(dp) :: sum_of, size_of, square_of, film_work, force_work, work_size, period
       real(dp) :: static, beyond, cube_of, fourth_of, beyond_sum, beyond_square, beyond_power
-      integer :: n, i, before
+      integer :: n, i, before, contact
 
       n = size(states, 1)
-      films(:n) = states(:, of_film)
       velocities(:n) = states(:, of_velocity)
       do i = 1, size(start)
          before = nodes_per_piece*(i - 1)
@@ -154,20 +153,19 @@ contains
       do i = 1, n, lanes
          call lane_cosine_sine(phases(i:i + lanes - 1), cosine(i:i + lanes - 1), sine(i:i + lanes - 1))
       end do
-      call drive_loads(problem, states, loads(:n))
-      call search(seen_load, loads(:n), record)
-      if (record%loads%impact_limit > 0.0_dp) &
-         call record_loads(problem, drive_flank, record%periods, start, length, states, loads(:n), record%loads)
-      if (has_two_flanks(problem)) then
-         call coast_loads(problem, states, coast(:n))
-         if (record%loads%impact_limit > 0.0_dp) &
-            call record_loads(problem, coast_flank, record%periods, start, length, states, coast(:n), record%loads)
-         loads(:n) = loads(:n) - coast(:n)
-         call search(seen_coast_load, coast(:n), record)
-         call search(seen_net_load, loads(:n), record)
-         if (record%wants(seen_coast_film)) call search(seen_coast_film, coast_films(problem, states), record)
-      end if
-      if (has_elastic_teeth(problem)) call search(seen_position, gear_positions(problem, states), record)
+      do contact = 1, contact_count(problem)
+         call contact_loads(problem, contact, states, carried(:n, contact))
+         if (record%loads%impact_limit > 0.0_dp) call record_loads(problem, contact, record%periods, start, length, states, &
+                                                                   carried(:n, contact), record%loads)
+         call search(seen_loads(contact), carried(:n, contact), record)
+         if (record%wants(seen_films(contact))) call search(seen_films(contact), contact_films(problem, contact, states), record)
+      end do
+      loads(:n) = carried(:n, 1)
+      do contact = 2, contact_count(problem)
+         loads(:n) = loads(:n) - carried(:n, contact)
+      end do
+      if (contact_count(problem) > 1) call search(seen_net_load, loads(:n), record)
+      if (has_own_position(problem)) call search(seen_position, gear_positions(problem, states), record)
       call forces_on_circle(problem%force, cosine(:n), sine(:n), forces(:n))
       !$omp simd
       do i = 1, n
@@ -215,7 +213,6 @@ contains
          call add_integrals(weights(:n)*velocities(:n), cosine, sine, record%integrals)
          call add_turns(values(:n), record)
       end if
-      call search(seen_film, films(:n), record)
       call search(seen_velocity, velocities(:n), record)
       call search(seen_acceleration, values(:n), record)
       if (record%wants(seen_pressure)) then

@@ -11,31 +11,30 @@ module carried_loads
       velocity_under
    use force, only: force_at, force_of_period, largest_oscillation
    use kinds, only: dp
-   use problem, only: compression_count, flank_count, has_elastic_teeth, has_inner_numbers, has_two_flanks, inner_places, &
-      of_coast_compression, of_drive_compression, of_film, of_velocity, problem_t, state_numbers, state_size, static_load
+   use problem, only: coast_flank, compression_count, contact_count, drive_flank, has_elastic_teeth, has_inner_numbers, &
+      has_two_flanks, inner_places, of_coast_compression, of_drive_compression, of_film, of_velocity, problem_t, &
+      state_numbers, state_size, static_load
    use scene_types, only: least_static_load
    implicit none(type, external)
    private
 
-   integer, parameter :: drive_flank = 1, coast_flank = 2
-
-   public :: thinnest_film, net_load, net_loads, drive_loads, coast_loads, coast_films, films_of, gear_positions, &
-             initial_state, kept_by_contacts, keep_by_contacts, counts_as, sizes_of_state, pressure_of_film, &
-             largest_pressures, acceleration_at, accelerations_of_samples
+   public :: thinnest_film, net_load, net_loads, contact_loads, contact_load, contact_films, contact_film, films_of, &
+             gear_positions, initial_state, kept_by_contacts, keep_by_contacts, counts_as, sizes_of_state, largest_pressures, &
+             largest_pressure, acceleration_at, accelerations_of_samples
 
 contains
 
-   !> The thinner one of the films of both flanks in a state [m].
+   !> The thinnest one of the films of all contacts in a state [m].
    pure real(dp) function thinnest_film(problem, state)
       type(problem_t), intent(in) :: problem
       !> Its numbers
       real(dp), intent(in) :: state(:)
-      real(dp) :: coast(1)
+      integer :: contact
 
       thinnest_film = state(of_film)
-      if (.not. has_two_flanks(problem)) return
-      coast = coast_films(problem, reshape(state, [1, size(state)]))
-      thinnest_film = min(thinnest_film, coast(1))
+      do contact = 2, contact_count(problem)
+         thinnest_film = min(thinnest_film, contact_film(problem, contact, state))
+      end do
    end function thinnest_film
 
    !> Net load of films without a state of their own, W(h, z') - W(b - h, -z'), and its slopes; beyond `overflow_load` where one of
@@ -88,6 +87,82 @@ contains
          loads = loads - coast
       end block
    end subroutine net_loads
+
+   !> Loads of the film of a contact, 0 where there is no such contact.
+   pure subroutine contact_loads(problem, contact, states, loads)
+      type(problem_t), intent(in) :: problem
+      !> Its number
+      integer, intent(in) :: contact
+      !> State, number of it
+      real(dp), intent(in) :: states(:, :)
+      !> [N]
+      real(dp), intent(out) :: loads(:)
+
+      if (contact == drive_flank) then
+         call drive_loads(problem, states, loads)
+      else
+         call coast_loads(problem, states, loads)
+      end if
+   end subroutine contact_loads
+
+   !> Load of the film of a contact in one state [N].
+   pure real(dp) function contact_load(problem, contact, state)
+      type(problem_t), intent(in) :: problem
+      !> Its number
+      integer, intent(in) :: contact
+      !> Its numbers
+      real(dp), intent(in) :: state(:)
+      type(load_t) :: load
+      real(dp) :: loads(1)
+
+      if (is_one_film(problem)) then
+         call net_load(problem, state(of_film), state(of_velocity), load)
+         contact_load = load%load
+      else
+         call contact_loads(problem, contact, reshape(state, [1, size(state)]), loads)
+         contact_load = loads(1)
+      end if
+   end function contact_load
+
+   !> Whether nothing but one film carries, of one state: it is not worth the registers of many.
+   elemental logical function is_one_film(problem)
+      type(problem_t), intent(in) :: problem
+
+      is_one_film = .not. (has_two_flanks(problem) .or. has_inner_numbers(problem))
+   end function is_one_film
+
+   !> Films of a contact [m].
+   pure function contact_films(problem, contact, states) result(films)
+      type(problem_t), intent(in) :: problem
+      !> Number of a contact that there is
+      integer, intent(in) :: contact
+      !> State, number of it
+      real(dp), intent(in) :: states(:, :)
+      real(dp) :: films(size(states, 1))
+
+      if (contact == drive_flank) then
+         films = states(:, of_film)
+      else
+         films = coast_films(problem, states)
+      end if
+   end function contact_films
+
+   !> Film of a contact in one state [m].
+   pure real(dp) function contact_film(problem, contact, state)
+      type(problem_t), intent(in) :: problem
+      !> Number of a contact that there is
+      integer, intent(in) :: contact
+      !> Its numbers
+      real(dp), intent(in) :: state(:)
+      real(dp) :: films(1)
+
+      if (contact == drive_flank) then
+         contact_film = state(of_film)
+      else
+         films = coast_films(problem, reshape(state, [1, size(state)]))
+         contact_film = films(1)
+      end if
+   end function contact_film
 
    !> Loads of the drive film.
    pure subroutine drive_loads(problem, states, loads)
@@ -146,9 +221,9 @@ contains
    end function coast_films
 
    !> A number of the states of a flank whose film is solved in nodes.
-   pure function nodal_numbers(problem, flank, which, states) result(numbers)
+   pure function nodal_numbers(problem, contact, which, states) result(numbers)
       type(problem_t), intent(in) :: problem
-      integer, intent(in) :: flank
+      integer, intent(in) :: contact
       !> One of those of module flank_contact
       integer, intent(in) :: which
       !> State, number of it
@@ -156,7 +231,7 @@ contains
       real(dp) :: numbers(size(states, 1))
       integer :: places(2)
 
-      places = inner_places(problem, flank)
+      places = inner_places(problem, contact)
       numbers = states(:, places(1) + which - 1)
    end function nodal_numbers
 
@@ -172,17 +247,19 @@ contains
                              states(:, of_drive_compression)/problem%contact%compliance, widths, by_film, by_load)
    end function drive_widths
 
-   !> Films of one flank or of both [m].
+   !> Films of all contacts [m].
    pure function films_of(problem, states) result(films)
       type(problem_t), intent(in) :: problem
       !> State, number of it
       real(dp), intent(in) :: states(:, :)
-      !> State, flank
+      !> State, contact
       real(dp), allocatable :: films(:, :)
+      integer :: contact
 
-      allocate (films(size(states, 1), flank_count(problem)))
-      films(:, 1) = states(:, of_film)
-      if (has_two_flanks(problem)) films(:, 2) = coast_films(problem, states)
+      allocate (films(size(states, 1), contact_count(problem)))
+      do contact = 1, size(films, 2)
+         films(:, contact) = contact_films(problem, contact, states)
+      end do
    end function films_of
 
    !> Positions of the gear [m]: with rigid teeth the film of the drive flank.
@@ -216,10 +293,10 @@ contains
       gaps = [problem%initial_film, problem%backlash - problem%initial_film]
       if (has_elastic_teeth(problem)) then
          call start_springs(problem, compressions)
-         state(of_drive_compression:of_velocity + flank_count(problem)) = compressions(:flank_count(problem))
+         state(of_drive_compression:of_velocity + contact_count(problem)) = compressions(:contact_count(problem))
          gaps(2) = gaps(2) + sum(compressions)
       end if
-      do flank = 1, flank_count(problem)
+      do flank = 1, contact_count(problem)
          places = inner_places(problem, flank)
          state(places(1):places(2)) = inner_at_rest(problem%contact, gaps(flank))
       end do
@@ -297,17 +374,22 @@ contains
       compression(2) = problem%contact%compliance*coast%load
    end subroutine start_springs
 
-   !> Largest pressure of the Reynolds iso-viscous film of one state [Pa].
-   pure real(dp) function pressure_of_film(problem, thickness, velocity)
+   !> Largest pressure of one state, as of largest_pressures [Pa].
+   pure real(dp) function largest_pressure(problem, state)
       type(problem_t), intent(in) :: problem
-      !> h [m] and h' [m/s]
-      real(dp), intent(in) :: thickness
-      real(dp), intent(in) :: velocity
+      !> Its numbers
+      real(dp), intent(in) :: state(:)
+      real(dp) :: pressures(1)
 
-      associate (film => problem%contact%film)
-         pressure_of_film = exact_pressure(film%radius, film%speed, film%viscosity, thickness, velocity)
-      end associate
-   end function pressure_of_film
+      if (is_one_film(problem)) then
+         associate (film => problem%contact%film)
+            largest_pressure = exact_pressure(film%radius, film%speed, film%viscosity, state(of_film), state(of_velocity))
+         end associate
+      else
+         call largest_pressures(problem, reshape(state, [1, size(state)]), pressures)
+         largest_pressure = pressures(1)
+      end if
+   end function largest_pressure
 
    !> Largest pressures of the Reynolds iso-viscous film, or of an elastohydrodynamic film, on the flank where they are larger.
    pure subroutine largest_pressures(problem, states, pressures)

@@ -11,7 +11,7 @@ module linear_motion
    use film_state, only: load_t
    use flank_contact, only: load_at_rest, compliance_at_rest
    use kinds, only: dp
-   use problem, only: flank_count, has_elastic_teeth, problem_t
+   use problem, only: contact_count, has_elastic_teeth, problem_t
    implicit none(type, external)
    private
 
@@ -33,7 +33,7 @@ contains
       integer :: flanks, flank
       integer, allocatable :: order(:)
 
-      flanks = flank_count(problem)
+      flanks = contact_count(problem)
       do flank = 1, flanks
          load = load_at_rest(problem%contact, films(flank), 0.0_dp)
          call compliance_at_rest(problem%contact, films(flank), load%load, share, compliance)

@@ -40,6 +40,9 @@ module problem
       real(dp) :: initial_velocity = 0.0_dp
    end type problem_t
 
+   !> The contacts of a problem: that of the drive flank, and where there is a backlash that of the coast flank.
+   integer, parameter, public :: most_contacts = 2, drive_flank = 1, coast_flank = 2
+
    !> Places of the numbers of a state: film of the drive flank h_1 [m], velocity z' [m/s], and of elastic teeth compressions d_1
    !> and d_2 [m]; behind them stand the states of the films, of the drive flank and then of the coast flank.
    integer, parameter, public :: of_film = 1, of_velocity = 2, of_drive_compression = 3, of_coast_compression = 4
@@ -54,9 +57,10 @@ module problem
       real(dp) :: rate = huge(1.0_dp)
    end type settling_t
 
-   public :: problem_of, has_two_flanks, has_elastic_teeth, has_inner_numbers, same_kind, flank_count, compression_count, &
-             state_size, state_numbers, state_number_t, inner_places, static_load, largest_applied_force, &
-             film_at_rest, films_at_rest, loads_at_rest, reference_films, reference_film, thinner_film, linearise, settling_of
+   public :: problem_of, has_two_flanks, has_elastic_teeth, has_own_position, has_inner_numbers, same_kind, contact_count, &
+             compression_count, state_size, state_numbers, state_number_t, inner_places, static_load, largest_applied_force, &
+             closing_velocity, film_at_rest, films_at_rest, loads_at_rest, reference_films, reference_film, thinner_film, &
+             linearise, settling_of
 
 contains
 
@@ -104,6 +108,13 @@ contains
       has_elastic_teeth = is_elastic(problem%contact)
    end function has_elastic_teeth
 
+   !> Whether the gear has a position of its own, which no film tells: not with rigid teeth.
+   elemental logical function has_own_position(problem)
+      type(problem_t), intent(in) :: problem
+
+      has_own_position = has_elastic_teeth(problem)
+   end function has_own_position
+
    !> Whether motions of two problems go by the same equations: films of one law, flanks and numbers alike.
    elemental logical function same_kind(problem, other)
       type(problem_t), intent(in) :: problem
@@ -122,36 +133,46 @@ contains
       has_inner_numbers = state_size(problem) > of_velocity
    end function has_inner_numbers
 
-   !> How many flanks there are.
-   elemental integer function flank_count(problem)
+   !> How many contacts there are.
+   elemental integer function contact_count(problem)
       type(problem_t), intent(in) :: problem
 
-      flank_count = merge(2, 1, has_two_flanks(problem))
-   end function flank_count
+      contact_count = merge(2, 1, has_two_flanks(problem))
+   end function contact_count
+
+   !> Velocity at which the gear closes the gap of a contact [m/s].
+   elemental real(dp) function closing_velocity(contact, velocity)
+      !> Number of the contact
+      integer, intent(in) :: contact
+      !> Velocity of the gear z' [m/s]
+      real(dp), intent(in) :: velocity
+
+      closing_velocity = merge(-velocity, velocity, contact == drive_flank)
+   end function closing_velocity
 
    !> How many compressions a state has.
    elemental integer function compression_count(problem)
       type(problem_t), intent(in) :: problem
 
-      compression_count = merge(flank_count(problem), 0, has_elastic_teeth(problem))
+      compression_count = merge(contact_count(problem), 0, has_elastic_teeth(problem))
    end function compression_count
 
    !> How many numbers a state has.
    elemental integer function state_size(problem)
       type(problem_t), intent(in) :: problem
 
-      state_size = of_velocity + compression_count(problem) + flank_count(problem)*inner_count(problem%contact)
+      state_size = of_velocity + compression_count(problem) + contact_count(problem)*inner_count(problem%contact)
    end function state_size
 
    !> First and last of the numbers of a film's own state.
-   pure function inner_places(problem, flank) result(places)
+   pure function inner_places(problem, contact) result(places)
       type(problem_t), intent(in) :: problem
-      !> 1 drive, 2 coast
-      integer, intent(in) :: flank
+      !> Number of the contact
+      integer, intent(in) :: contact
       integer :: places(2)
 
-      places = of_velocity + compression_count(problem) + [(flank - 1)*inner_count(problem%contact) + 1, &
-                                                           flank*inner_count(problem%contact)]
+      places = of_velocity + compression_count(problem) + [(contact - 1)*inner_count(problem%contact) + 1, &
+                                                           contact*inner_count(problem%contact)]
    end function inner_places
 
    !> The numbers of a state, in their order.
@@ -163,7 +184,7 @@ contains
 
       numbers(of_film) = state_number_t('film', 'm')
       numbers(of_velocity) = state_number_t('velocity', 'm/s')
-      do flank = 1, flank_count(problem)
+      do flank = 1, contact_count(problem)
          if (has_elastic_teeth(problem)) numbers(of_velocity + flank) = state_number_t(flanks(flank)//'compression', 'm')
          places = inner_places(problem, flank)
          do i = places(1), places(2)
@@ -296,7 +317,7 @@ contains
 
       stiffness = 0.0_dp
       damping = 0.0_dp
-      do flank = 1, flank_count(problem)
+      do flank = 1, contact_count(problem)
          load = load_at_rest(problem%contact, films(flank), 0.0_dp)
          ! What of the gear's way the film takes; the spring takes the rest.
          call compliance_at_rest(problem%contact, films(flank), load%load, own_share, compliance)

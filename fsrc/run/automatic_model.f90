@@ -9,10 +9,9 @@ module automatic_model
    use judge_scene, only: judge, note_ending
    use judged_scene, only: judged_scene_t, largest_load
    use kinds, only: dp
-   use load_points, only: coast_flank, drive_flank
    use nodal_scene, only: choice_of, solve_nodal_scene
-   use node_extremes, only: seen_coast_load, seen_load, seen_net_load
-   use problem, only: has_two_flanks, largest_applied_force
+   use node_extremes, only: seen_loads, seen_net_load_of
+   use problem, only: contact_count, largest_applied_force
    use regime_check, only: closure_range, closure_range_sentence, outside_closure
    use resolved_scene, only: request_of, resolve
    use sample_recorder, only: sample_recorder_t
@@ -105,7 +104,7 @@ contains
       !> Loads above this multiple of the largest force are impacts [-]
       real(dp), intent(in) :: impact_limit
       real(dp) :: force, load
-      integer :: flank, carried
+      integer :: contact
 
       if (judged%status == status_interrupted) return
       reason%code = because_closure_ended
@@ -118,15 +117,14 @@ contains
          reason%error = error_of_loads(film%closure, largest_load(judged)/film%closure%load_unit)
          force = largest_applied_force(problem)
          reason%limit = impact_limit*force
-         do flank = drive_flank, merge(coast_flank, drive_flank, has_two_flanks(problem))
-            reason%load = extremes%highest(merge(seen_load, seen_coast_load, flank == drive_flank))%value
+         do contact = 1, contact_count(problem)
+            reason%load = extremes%highest(seen_loads(contact))%value
             if (abs(reason%load - reason%limit) > reason%error*reason%load) cycle
             reason%code = because_of_impact
             return
          end do
-         if (any(judged%impacts%flanks%count > 0)) return
-         carried = merge(seen_net_load, seen_load, has_two_flanks(problem))
-         load = extremes%lowest(carried)%value
+         if (any(judged%impacts%contacts%count > 0)) return
+         load = extremes%lowest(seen_net_load_of(problem))%value
          ! Without a change of sign the drive film may be unloaded for a time: errors count for that time as for loads.
          if (load > reason%error*force .and. .not. judged%impacts%unloaded_share > 0.0_dp) return
          if (load < -reason%error*force .or. judged%impacts%unloaded_share > reason%error) return

@@ -18,7 +18,7 @@ module follow_starts
    use many_motions, only: solve_motions
    use motion_start, only: chosen_starts, motion_start_t, motion_starts, one_start_reason, start_count, &
       start_is_given, state_of_start
-   use node_extremes, only: seen_film
+   use node_extremes, only: seen_films
    use periodic_orbit, only: attracting_period, map_states, periodic_orbit_t
    use problem, only: of_film, of_velocity, problem_t, state_size
    use rattle_class, only: class_irregular, class_irregular_so_far, note_orbit, rattle_verdict_t
@@ -188,7 +188,7 @@ contains
       own%starts = 1
       own%acceleration_rms = judged%severity%acceleration_rms
       own%film_force_rms = judged%severity%film_force_rms
-      own%film_minimum = judged%extremes%lowest(seen_film)%value
+      own%film_minimum = judged%extremes%lowest(seen_films(1))%value
       allocate (settled(1))
       settled(1) = settled_of(judged%resolved%problem, own)
       own%period = settled(1)%period
@@ -458,7 +458,7 @@ contains
                                 impacts_of_record(window%record, judged%resolved%problem%frequency))
       told%acceleration_rms = severity%acceleration_rms
       told%film_force_rms = severity%film_force_rms
-      told%film_minimum = extremes%lowest(seen_film)%value
+      told%film_minimum = extremes%lowest(seen_films(1))%value
    end subroutine judge_motion
 
    !> Add the motion of a start that does not repeat, if it is irregular.

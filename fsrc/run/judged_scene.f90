@@ -8,51 +8,39 @@ module judged_scene
    use force_signal, only: force_signal_t
    use impacts, only: impact_count_t
    use kinds, only: dp
-   use load_points, only: coast_flank, drive_flank
    use vibration_severity, only: vibration_severity_t
    use nodal_step, only: nodal_choice_t
-   use node_extremes, only: extreme_t, seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, &
-      seen_position, seen_pressure, seen_velocity
+   use node_extremes, only: extreme_t, seen_acceleration, seen_films, seen_loads, seen_position, seen_pressure, seen_velocity
    use nodal_orbit, only: orbit_unasked
    use periodic_orbit, only: orbit_stability, periodic_orbit_t
    use quantities, only: quantity_acceleration_error, quantity_acceleration_kurtosis, quantity_acceleration_maximum, &
       quantity_acceleration_maximum_error, quantity_acceleration_minimum, quantity_acceleration_minimum_error, &
-      quantity_acceleration_rms, quantity_alpha_p_maximum, quantity_verified, quantity_coast_film_maximum, &
-      quantity_coast_film_minimum, quantity_coast_load_maximum, quantity_crest_factor, quantity_damping_ratio, &
+      quantity_acceleration_rms, quantity_alpha_p_maximum, quantity_verified, quantity_crest_factor, quantity_damping_ratio, &
       quantity_deflection, quantity_deflection_share, quantity_dissipated_energy, quantity_dissipated_power, &
       quantity_double_sided, quantity_drag_bearing, quantity_drag_churning, quantity_drag_synchroniser, quantity_drag_torque, &
-      quantity_gear_acceleration_maximum, quantity_gear_acceleration_rms, quantity_inertia_ratio, &
-      quantity_evaluations, quantity_film_error, quantity_film_force_rms, quantity_film_maximum, &
-      quantity_film_maximum_error, quantity_film_minimum, quantity_film_minimum_error, quantity_film_regime, &
-      quantity_gear_position_maximum, quantity_gear_position_minimum, quantity_impact_impulse_maximum_coast, &
-      quantity_impact_impulse_maximum_drive, quantity_impact_impulse_mean_coast, quantity_impact_impulse_mean_drive, &
-      quantity_impact_load_maximum_coast, quantity_impact_load_maximum_drive, quantity_impact_velocity_maximum_coast, &
-      quantity_impact_velocity_maximum_drive, quantity_impacts_per_period_coast, quantity_impacts_per_period_drive, &
-      quantity_impacts_verified, quantity_impact_impulses_coast, quantity_impact_impulses_drive, quantity_impact_loads_coast, &
-      quantity_impact_loads_drive, quantity_impact_periods, quantity_impact_times_coast, quantity_impact_times_drive, &
-      quantity_impact_velocities_coast, quantity_impact_velocities_drive, quantity_impacts_coast, quantity_impacts_drive, &
-      quantity_reversal, quantity_separation, quantity_unloaded_share, quantity_verdict, &
-      quantity_verdict_verified, quantity_first_harmonic, quantity_floquet_modulus, &
-      quantity_floquet_multipliers, quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, &
-      quantity_harmonic_errors, quantity_harmonics, quantity_irregular_fraction, quantity_iterations_per_step, &
-      quantity_irregular_fraction_is_bound, quantity_lyapunov_exponent, &
-      quantity_law_contradicted, quantity_closure_range, quantity_film_model, quantity_harmonic_count, &
-      quantity_harmonic_count_is_bound, &
-      quantity_harmonics_by_integrals, &
-      quantity_load_maximum, quantity_load_minimum, &
-      quantity_loudest_acceleration_rms, quantity_loudest_class, &
-      quantity_loudest_film_force_rms, quantity_loudest_film_minimum, quantity_loudest_verdict, quantity_motions, &
-      quantity_quietest_acceleration_rms, &
-      quantity_quietest_class, quantity_starts_solved, quantity_start_periods, quantity_unsettled_starts, &
-      quantity_severity_error, quantity_model_limit, quantity_natural_frequency, &
-      quantity_orbit_period, quantity_orbit_stability, quantity_periods_solved, quantity_pressure_maximum, &
-      quantity_pressure_error, quantity_pressure_resolved, quantity_film_at_pressure_maximum, quantity_central_film, &
-      quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, quantity_sampling_sufficient, &
-      quantity_series_coarse, quantity_status, quantity_steady_film, quantity_steps, quantity_steps_cut, &
-      quantity_stiffness_matters, quantity_velocity_maximum, quantity_velocity_minimum, quantity_window_periods
-   use carried_loads, only: coast_films
+      quantity_gear_acceleration_maximum, quantity_gear_acceleration_rms, quantity_inertia_ratio, quantity_evaluations, &
+      quantity_film_error, quantity_film_force_rms, quantity_film_maximum_error, quantity_film_minimum_error, &
+      quantity_film_regime, quantity_gear_position_maximum, quantity_gear_position_minimum, quantity_impacts_verified, &
+      quantity_impact_periods, quantity_reversal, quantity_separation, quantity_unloaded_share, quantity_verdict, &
+      quantity_verdict_verified, quantity_first_harmonic, quantity_floquet_modulus, quantity_floquet_multipliers, &
+      quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, quantity_harmonic_errors, quantity_harmonics, &
+      quantity_irregular_fraction, quantity_iterations_per_step, quantity_irregular_fraction_is_bound, &
+      quantity_lyapunov_exponent, quantity_law_contradicted, quantity_closure_range, quantity_film_model, &
+      quantity_harmonic_count, quantity_harmonic_count_is_bound, quantity_harmonics_by_integrals, quantity_load_minimum, &
+      quantity_loudest_acceleration_rms, quantity_loudest_class, quantity_loudest_film_force_rms, quantity_loudest_film_minimum, &
+      quantity_loudest_verdict, quantity_motions, quantity_quietest_acceleration_rms, quantity_quietest_class, &
+      quantity_starts_solved, quantity_start_periods, quantity_unsettled_starts, quantity_severity_error, quantity_model_limit, &
+      quantity_natural_frequency, quantity_orbit_period, quantity_orbit_stability, quantity_periods_solved, &
+      quantity_pressure_maximum, quantity_pressure_error, quantity_pressure_resolved, quantity_film_at_pressure_maximum, &
+      quantity_central_film, quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, &
+      quantity_sampling_sufficient, quantity_series_coarse, quantity_status, quantity_steady_film, quantity_steps, &
+      quantity_steps_cut, quantity_stiffness_matters, quantity_velocity_maximum, quantity_velocity_minimum, &
+      quantity_window_periods, quantities_of_contacts, told_film_minimum, told_film_maximum, told_load_maximum, told_impacts, &
+      told_impacts_per_period, told_impact_load_maximum, told_impact_velocity_maximum, told_impact_impulse_maximum, &
+      told_impact_impulse_mean, told_impact_times, told_impact_loads, told_impact_velocities
+   use carried_loads, only: contact_film
    use flank_contact, only: of_central_film, of_film_at_pressure, of_pressure
-   use problem, only: flank_count, has_elastic_teeth, has_two_flanks, inner_places, of_film
+   use problem, only: contact_count, has_own_position, inner_places
    use rattle_class, only: rattle_verdict_t
    use regime, only: deflection_limit, film_elastohydrodynamic
    use regime_check, only: closure_range, model_limit, regime_verdict_t
@@ -178,6 +166,7 @@ contains
    pure real(dp) function window_value(quantity, judged) result(value)
       integer, intent(in) :: quantity
       type(judged_scene_t), intent(in) :: judged
+      integer :: place(2)
 
       value = ieee_value(value, ieee_quiet_nan)
       associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest, spectrum => judged%rattle%spectrum, &
@@ -191,10 +180,6 @@ contains
             value = flag(judged%series_coarse)
          case (quantity_harmonics_by_integrals)
             value = flag(judged%harmonics_by_integrals)
-         case (quantity_film_minimum)
-            value = lowest(seen_film)%value
-         case (quantity_film_maximum)
-            value = highest(seen_film)%value
          case (quantity_velocity_minimum)
             value = lowest(seen_velocity)%value
          case (quantity_velocity_maximum)
@@ -204,9 +189,7 @@ contains
          case (quantity_acceleration_maximum)
             value = highest(seen_acceleration)%value
          case (quantity_load_minimum)
-            value = lowest(seen_load)%value
-         case (quantity_load_maximum)
-            value = highest(seen_load)%value
+            value = lowest(seen_loads(1))%value
          case (quantity_acceleration_rms)
             value = judged%severity%acceleration_rms
          case (quantity_gear_acceleration_rms)
@@ -227,19 +210,12 @@ contains
          case (quantity_dissipated_power)
             value = judged%severity%dissipated_energy*judged%resolved%problem%frequency
          case (quantity_model_limit)
-            value = lowest(seen_film)%value
-            if (has_two_flanks(problem)) value = min(value, lowest(seen_coast_film)%value)
-            value = real(model_limit(value, highest(seen_film)%value, problem%contact%film%radius), dp)
-         case (quantity_coast_film_minimum)
-            if (has_two_flanks(problem)) value = lowest(seen_coast_film)%value
-         case (quantity_coast_film_maximum)
-            if (has_two_flanks(problem)) value = highest(seen_coast_film)%value
+            value = minval(lowest(seen_films(:contact_count(problem)))%value)
+            value = real(model_limit(value, highest(seen_films(1))%value, problem%contact%film%radius), dp)
          case (quantity_gear_position_minimum)
-            if (has_elastic_teeth(problem)) value = lowest(seen_position)%value
+            if (has_own_position(problem)) value = lowest(seen_position)%value
          case (quantity_gear_position_maximum)
-            if (has_elastic_teeth(problem)) value = highest(seen_position)%value
-         case (quantity_coast_load_maximum)
-            if (has_two_flanks(problem)) value = highest(seen_coast_load)%value
+            if (has_own_position(problem)) value = highest(seen_position)%value
          case (quantity_reversals_per_period)
             value = judged%rattle%reversals_per_period
          case (quantity_first_harmonic)
@@ -312,7 +288,12 @@ contains
                quantity_acceleration_minimum_error, quantity_acceleration_maximum_error)
             if (allocated(verification%harmonic_errors)) value = error_value(quantity, verification)
          case default
-            if (judged%impacts%exists) value = impact_value(quantity, judged)
+            place = findloc(quantities_of_contacts, quantity)
+            if (place(1) > 0) then
+               if (place(1) <= contact_count(problem)) value = contact_value(place(2), place(1), judged)
+            else if (judged%impacts%exists) then
+               value = impact_value(quantity, judged)
+            end if
          end select
       end associate
    end function window_value
@@ -353,7 +334,7 @@ contains
       end associate
    end function value_of_motions
 
-   !> Value of a quantity that rests on separation and impacts; those of the coast flank are known where there is one.
+   !> Value of a quantity that rests on separation and impacts.
    pure real(dp) function impact_value(quantity, judged) result(value)
       integer, intent(in) :: quantity
       type(judged_scene_t), intent(in) :: judged
@@ -369,70 +350,85 @@ contains
             value = flag(has_separation(problem, extremes, impacts))
          case (quantity_impact_periods)
             value = real(impacts%periods, dp)
-         case (quantity_impacts_drive)
-            value = real(impacts%flanks(drive_flank)%count, dp)
          case (quantity_verdict)
             value = real(verdict_of(problem, extremes, impacts), dp)
          case (quantity_double_sided)
-            if (has_two_flanks(problem)) value = flag(verdict_of(problem, extremes, impacts) == double_sided_impacts)
-         case (quantity_impacts_per_period_drive, quantity_impact_load_maximum_drive, quantity_impact_velocity_maximum_drive, &
-               quantity_impact_impulse_maximum_drive, quantity_impact_impulse_mean_drive)
-            value = flank_value(quantity, impacts%flanks(drive_flank), impacts%periods)
+            if (contact_count(problem) > 1) value = flag(verdict_of(problem, extremes, impacts) == double_sided_impacts)
          case default
-            if (has_two_flanks(problem)) value = flank_value(quantity, impacts%flanks(coast_flank), impacts%periods)
+            continue
          end select
       end associate
    end function impact_value
 
-   !> Value of a quantity of the impacts on a flank.
-   pure real(dp) function flank_value(quantity, impacts, periods) result(value)
-      integer, intent(in) :: quantity
+   !> Value of a quantity of a contact.
+   pure real(dp) function contact_value(told, contact, judged) result(value)
+      !> What is told of the contact, by a code of module quantities
+      integer, intent(in) :: told
+      !> Number of a contact that there is
+      integer, intent(in) :: contact
+      type(judged_scene_t), intent(in) :: judged
+
+      value = ieee_value(value, ieee_quiet_nan)
+      select case (told)
+      case (told_film_minimum)
+         value = judged%extremes%lowest(seen_films(contact))%value
+      case (told_film_maximum)
+         value = judged%extremes%highest(seen_films(contact))%value
+      case (told_load_maximum)
+         value = judged%extremes%highest(seen_loads(contact))%value
+      case default
+         if (judged%impacts%exists) value = value_of_impacts(told, judged%impacts%contacts(contact), judged%impacts%periods)
+      end select
+   end function contact_value
+
+   !> Value of a quantity of the impacts on a contact.
+   pure real(dp) function value_of_impacts(told, impacts, periods) result(value)
+      !> As of contact_value
+      integer, intent(in) :: told
       type(impact_count_t), intent(in) :: impacts
       !> Periods that they were counted in
       integer, intent(in) :: periods
 
       value = ieee_value(value, ieee_quiet_nan)
-      select case (quantity)
-      case (quantity_impacts_per_period_drive, quantity_impacts_per_period_coast)
-         value = real(impacts%count, dp)/real(periods, dp)
-      case (quantity_impacts_coast)
+      select case (told)
+      case (told_impacts)
          value = real(impacts%count, dp)
-      case (quantity_impact_load_maximum_drive, quantity_impact_load_maximum_coast)
+      case (told_impacts_per_period)
+         value = real(impacts%count, dp)/real(periods, dp)
+      case (told_impact_load_maximum)
          value = impacts%load_maximum
-      case (quantity_impact_velocity_maximum_drive, quantity_impact_velocity_maximum_coast)
+      case (told_impact_velocity_maximum)
          value = impacts%velocity_maximum
-      case (quantity_impact_impulse_maximum_drive, quantity_impact_impulse_maximum_coast)
+      case (told_impact_impulse_maximum)
          value = impacts%impulse_maximum
-      case (quantity_impact_impulse_mean_drive, quantity_impact_impulse_mean_coast)
+      case (told_impact_impulse_mean)
          value = impacts%impulse_sum/real(max(1, impacts%count), dp)
       case default
          continue
       end select
-   end function flank_value
+   end function value_of_impacts
 
-   !> Largest load of either flank over the window [N].
+   !> Largest load of any contact over the window [N].
    pure real(dp) function largest_load(judged)
       type(judged_scene_t), intent(in) :: judged
 
-      largest_load = judged%extremes%highest(seen_load)%value
-      if (has_two_flanks(judged%resolved%problem)) &
-         largest_load = max(largest_load, judged%extremes%highest(seen_coast_load)%value)
+      largest_load = maxval(judged%extremes%highest(seen_loads(:contact_count(judged%resolved%problem)))%value)
    end function largest_load
 
-   !> A film of the flank under the largest pressure, at its time [m].
+   !> A film of the contact under the largest pressure, at its time [m].
    pure real(dp) function film_of_peak(judged, which) result(film)
       !> Its films are in nodes
       type(judged_scene_t), intent(in) :: judged
       !> One of the numbers of module flank_contact
       integer, intent(in) :: which
       real(dp) :: pressure
-      integer :: places(2), flank
+      integer :: places(2), contact
 
       pressure = -1.0_dp
       film = 0.0_dp
       associate (state => judged%extremes%highest(seen_pressure)%state)
-         do flank = 1, flank_count(judged%resolved%problem)
-            places = inner_places(judged%resolved%problem, flank) - 1
+         do contact = 1, contact_count(judged%resolved%problem)
+            places = inner_places(judged%resolved%problem, contact) - 1
             if (state(places(1) + of_pressure) <= pressure) cycle
             pressure = state(places(1) + of_pressure)
             film = state(places(1) + which)
@@ -440,20 +436,19 @@ contains
       end associate
    end function film_of_peak
 
-   !> By which share of the film a tooth deflects under the largest load of it, at the flank where that is more [-].
+   !> By which share of the film a tooth deflects under the largest load of it, at the contact where that is more [-].
    pure real(dp) function deflection_share(judged) result(share)
       type(judged_scene_t), intent(in) :: judged
-      real(dp) :: coast(1)
+      integer :: contact
 
-      associate (highest => judged%extremes%highest, resolved => judged%resolved)
-         share = highest(seen_load)%value/highest(seen_load)%state(of_film)
-         if (has_two_flanks(resolved%problem)) then
-            associate (state => highest(seen_coast_load)%state)
-               coast = coast_films(resolved%problem, reshape(state, [1, size(state)]))
+      share = -huge(1.0_dp)
+      associate (resolved => judged%resolved)
+         do contact = 1, contact_count(resolved%problem)
+            associate (largest => judged%extremes%highest(seen_loads(contact)))
+               share = max(share, largest%value/contact_film(resolved%problem, contact, largest%state))
             end associate
-            share = max(share, highest(seen_coast_load)%value/coast(1))
-         end if
-         share = resolved%tooth_compliance*share
+         end do
+         share = resolved%deflection_by_load*share
       end associate
    end function deflection_share
 
@@ -492,7 +487,7 @@ contains
       real(dp), allocatable :: list(:)
       !> Most numbers of a list
       integer, parameter :: most = 40
-      integer :: i
+      integer :: place(2), i
 
       allocate (list(0))
       if (.not. judged%judged) return
@@ -506,32 +501,28 @@ contains
       case (quantity_floquet_multipliers)
          if (judged%orbit%period > 0) list = [(judged%orbit%multipliers(i)%re, judged%orbit%multipliers(i)%im, &
                                                i=1, size(judged%orbit%multipliers))]
-      case (quantity_impact_times_drive, quantity_impact_loads_drive, quantity_impact_velocities_drive, &
-            quantity_impact_impulses_drive)
-         list = impact_list(quantity, judged%impacts%flanks(drive_flank), judged)
-      case (quantity_impact_times_coast, quantity_impact_loads_coast, quantity_impact_velocities_coast, &
-            quantity_impact_impulses_coast)
-         list = impact_list(quantity, judged%impacts%flanks(coast_flank), judged)
       case default
-         continue
+         place = findloc(quantities_of_contacts, quantity)
+         if (place(1) > 0) list = impact_list(place(2), judged%impacts%contacts(place(1)), judged)
       end select
    end function quantity_list
 
-   !> A number of each impact on a flank that is kept.
-   pure function impact_list(quantity, impacts, judged) result(list)
-      integer, intent(in) :: quantity
+   !> A number of each impact on a contact that is kept.
+   pure function impact_list(told, impacts, judged) result(list)
+      !> As of contact_value
+      integer, intent(in) :: told
       type(impact_count_t), intent(in) :: impacts
       type(judged_scene_t), intent(in) :: judged
       real(dp), allocatable :: list(:)
 
       allocate (list(0))
       if (.not. allocated(impacts%kept)) return
-      select case (quantity)
-      case (quantity_impact_times_drive, quantity_impact_times_coast)
+      select case (told)
+      case (told_impact_times)
          list = (real(judged%periods - judged%window_periods, dp) + impacts%kept%time)/judged%resolved%problem%frequency
-      case (quantity_impact_loads_drive, quantity_impact_loads_coast)
+      case (told_impact_loads)
          list = impacts%kept%load
-      case (quantity_impact_velocities_drive, quantity_impact_velocities_coast)
+      case (told_impact_velocities)
          list = impacts%kept%velocity
       case default
          list = impacts%kept%impulse

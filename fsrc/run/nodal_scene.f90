@@ -12,7 +12,7 @@ module nodal_scene
    use nodal_engine, only: solve_in_nodes
    use nodal_profiles, only: nodal_profiles_t
    use nodal_step, only: nodal_choice_t
-   use node_extremes, only: seen_film, seen_load, seen_net_load
+   use node_extremes, only: seen_films, seen_loads, seen_net_load
    use problem, only: largest_applied_force, problem_t, state_size
    use scene_status, only: is_success
    use scene_types, only: scene_t
@@ -74,9 +74,9 @@ contains
       call solve_window(by_closure, start_of(by_closure), closure_accuracy, closure_samples, periods, periods, states, values, &
                         ending, record)
       if (is_success(ending%status)) then
-         film = record%lowest(seen_film)%value
+         film = record%lowest(seen_films(1))%value
          ! The net load is as far below zero as the other film pushes back.
-         load = max(record%highest(seen_load)%value, -record%lowest(seen_net_load)%value)
+         load = max(record%highest(seen_loads(1))%value, -record%lowest(seen_net_load)%value)
       end if
       associate (oil => problem%contact%film%closure)
          choice%scale = width_factor*sqrt(2.0_dp*film/oil%film_unit + 8.0_dp/pi*load/oil%load_unit)

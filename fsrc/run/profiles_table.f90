@@ -8,7 +8,7 @@ module profiles_table
    use nodal_film, only: hertzian_pressure
    use nodal_profiles, only: at_largest_loads, nodal_profile_t, nodal_profiles_t
    use output_place, only: profiles_path
-   use problem, only: flank_count
+   use problem, only: contact_count
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_writer, only: result_writer_t
    use scene_types, only: scene_t
@@ -52,23 +52,23 @@ contains
       if (.not. allocated(error)) call writer%close(error)
    end subroutine write_profiles
 
-   !> Those at the phases that are asked for, or at the largest load of each impact, of a flank without impacts at its largest load.
+   !> Those at the phases that are asked for, or at the largest load of each impact, of a contact without impacts at its largest load.
    pure function chosen_profiles(judged, profiles) result(chosen)
       type(judged_scene_t), intent(in) :: judged
       type(nodal_profiles_t), intent(in) :: profiles
       type(nodal_profile_t), allocatable :: chosen(:)
       real(dp), allocatable :: times(:)
-      integer :: flank
+      integer :: contact
 
       if (allocated(profiles%phases)) then
          chosen = profiles%kept(:profiles%count)
          return
       end if
       allocate (chosen(0))
-      do flank = 1, flank_count(judged%resolved%problem)
+      do contact = 1, contact_count(judged%resolved%problem)
          allocate (times(0))
-         if (allocated(judged%impacts%flanks(flank)%kept)) times = judged%impacts%flanks(flank)%kept%time
-         chosen = [chosen, at_largest_loads(profiles, flank, times, judged%window_periods)]
+         if (allocated(judged%impacts%contacts(contact)%kept)) times = judged%impacts%contacts(contact)%kept%time
+         chosen = [chosen, at_largest_loads(profiles, contact, times, judged%window_periods)]
          deallocate (times)
       end do
    end function chosen_profiles
@@ -89,7 +89,7 @@ contains
          do i = 1, size(profile%pressures)
             call thicken(film%closure, profile%pressures(i), thickening, slope)
             rows(:, i) = [(real(judged%periods - judged%window_periods, dp) + profile%time)/judged%resolved%problem%frequency, &
-                          real(profile%flank, dp), profile%load*film%closure%load_unit, grid%place(i)*x_unit, &
+                          real(profile%contact, dp), profile%load*film%closure%load_unit, grid%place(i)*x_unit, &
                           profile%pressures(i)*film%closure%pressure_unit, profile%films(i)*film%closure%film_unit, &
                           film%viscosity*exp(thickening), &
                           hertzian_pressure(grid%place(i), profile%load)*film%closure%pressure_unit, grid%load(i)*x_unit]

@@ -4,6 +4,7 @@ module resolved_scene
    use collocation_basis, only: pass_share
    use engine, only: request_t
    use film_pressure, only: pressure_scale
+   use flank_elasticity, only: deflection_by_load
    use force, only: largest_oscillation
    use kinds, only: dp
    use linear_motion, only: natural_motion
@@ -39,7 +40,7 @@ module resolved_scene
       !> Largest alpha p at the steady film, exact [-]
       real(dp) :: alpha_p = 0.0_dp
       !> By how much a tooth deflects under a load; one that is taken for rigid as a steel tooth [m/N]
-      real(dp) :: tooth_compliance = 0.0_dp
+      real(dp) :: deflection_by_load = 0.0_dp
       !> Load of an impact without oil at the sum of the velocity amplitudes that the force gives the mass [N]
       real(dp) :: dry_impact = 0.0_dp
       !> Amplitude of acceleration that rounding and the accuracy of the scene's own method explain [m/s2]
@@ -65,9 +66,8 @@ contains
       if (scene%gear%given) resolved%drag = scene%drag
       ! The mass of the contact is the inertia of the loose gear over the square of the arm.
       if (scene%gear%given) resolved%gear_arm = sqrt(scene%gear%loose_inertia/scene%excitation%mass)
-      resolved%tooth_compliance = 1.0_dp/scene%contact%flank_stiffness(steel_tooth)
-      if (scene%contact%stiffness > 0.0_dp) resolved%tooth_compliance = 1.0_dp/scene%contact%stiffness
-      resolved%dry_impact = free_velocity(scene%excitation)*sqrt(scene%excitation%mass/resolved%tooth_compliance)
+      resolved%deflection_by_load = deflection_by_load(scene%contact, steel_tooth)
+      resolved%dry_impact = free_velocity(scene%excitation)*sqrt(scene%excitation%mass/resolved%deflection_by_load)
       static_load = scene%excitation%static_load()
       rest = films_at_rest(resolved%problem, static_load)
       resolved%steady_film = rest(1)

@@ -5,13 +5,13 @@ module sample_recorder
    use errors, only: error_t, exit_bad_input, raise
    use force, only: force_at
    use kinds, only: dp, int64
-   use node_extremes, only: extreme_t, seen_acceleration, seen_film, seen_velocity
-   use carried_loads, only: acceleration_at, coast_films, coast_loads, gear_positions
-   use problem, only: has_two_flanks, of_film, of_velocity, problem_t, state_size
+   use node_extremes, only: extreme_t, seen_acceleration, seen_films, seen_velocity
+   use carried_loads, only: acceleration_at, contact_films, contact_loads, gear_positions
+   use problem, only: contact_count, most_contacts, of_velocity, problem_t, state_size
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
-   use scene_types, only: column_acceleration, column_applied_force, column_coast_load, column_coast_film, &
-      column_film_thickness, column_gear_position, column_names, column_squeeze_velocity, column_time, column_units, scene_t
+   use scene_types, only: column_acceleration, column_applied_force, column_gear_position, column_names, &
+      column_squeeze_velocity, column_time, column_units, columns_of_films, columns_of_loads, scene_t
    use signals, only: caught_signal
    use window_record, only: window_record_t
    implicit none(type, external)
@@ -172,8 +172,7 @@ contains
       real(dp), intent(in) :: states(:, :)
       real(dp), intent(in) :: acceleration(:)
       real(dp), intent(inout) :: rows(:, :)
-      real(dp) :: coast(size(times))
-      integer :: column, last
+      integer :: column, last, contact
 
       last = size(times)
       do column = 1, size(self%columns)
@@ -182,28 +181,44 @@ contains
             rows(column, :last) = times
          case (column_applied_force)
             rows(column, :last) = force
-         case (column_film_thickness)
-            rows(column, :last) = states(:, of_film)
          case (column_squeeze_velocity)
             rows(column, :last) = states(:, of_velocity)
          case (column_acceleration)
             rows(column, :last) = acceleration
-         case (column_coast_film)
-            rows(column, :last) = coast_films(self%problem, states)
          case (column_gear_position)
             rows(column, :last) = gear_positions(self%problem, states)
-         case (column_coast_load)
-            call coast_loads(self%problem, states, rows(column, :last))
          case default
-            ! Load of the drive film: the net load, read off the equation of motion (1), which the sample fulfils, and what the
-            ! coast film carries.
-            rows(column, :last) = self%problem%mass*(acceleration + self%gravity) + force
-            if (.not. has_two_flanks(self%problem)) cycle
-            call coast_loads(self%problem, states, coast)
-            rows(column, :last) = rows(column, :last) + coast
+            do contact = 1, most_contacts
+               if (self%columns(column) == columns_of_films(contact)) &
+                  rows(column, :last) = contact_films(self%problem, contact, states)
+               if (self%columns(column) == columns_of_loads(contact)) &
+                  rows(column, :last) = loads_of_samples(self, contact, force, states, acceleration)
+            end do
          end select
       end do
    end subroutine fill_rows
+
+   !> Loads of the film of a contact: of the first one the net load, read off the equation of motion (1), which the sample fulfils,
+   !> and what the others carry [N].
+   pure function loads_of_samples(self, contact, force, states, acceleration) result(loads)
+      class(sample_recorder_t), intent(in) :: self
+      integer, intent(in) :: contact
+      real(dp), intent(in) :: force(:)
+      real(dp), intent(in) :: states(:, :)
+      real(dp), intent(in) :: acceleration(:)
+      real(dp) :: loads(size(force)), others(size(force))
+      integer :: other
+
+      if (contact > 1) then
+         call contact_loads(self%problem, contact, states, loads)
+         return
+      end if
+      loads = self%problem%mass*(acceleration + self%gravity) + force
+      do other = 2, contact_count(self%problem)
+         call contact_loads(self%problem, other, states, others)
+         loads = loads + others
+      end do
+   end function loads_of_samples
 
    !> Put the extremes of the window, which fall between samples, behind the rows of the series, and say there whether the series
    !> is coarser than the motion.
@@ -221,7 +236,7 @@ contains
 
       if (.not. self%series) return
       if (coarse) call self%writer%mark_coarse()
-      associate (quantities => [seen_film, seen_velocity, seen_acceleration])
+      associate (quantities => [seen_films(1), seen_velocity, seen_acceleration])
          found = [record%lowest(quantities), record%highest(quantities)]
       end associate
       ! In the order of time, each state once.

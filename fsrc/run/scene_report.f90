@@ -10,7 +10,7 @@ module scene_report
    use judged_scene, only: judged_scene_t, largest_load, quantity_value
    use kinds, only: dp
    use log_file, only: log_magic, log_t
-   use node_extremes, only: seen_acceleration, seen_film
+   use node_extremes, only: seen_acceleration, seen_films
    use nodal_orbit, only: orbit_sentence
    use output_place, only: has_motions_table, motions_path, profiles_path, result_path, summary_path
    use problem, only: reference_film
@@ -172,7 +172,7 @@ contains
       if (resolved%steady_film > 0.0_dp) then
          thinner = reference_film(resolved%problem)
          load = load_at_rest(resolved%problem%contact, thinner, 0.0_dp)
-         share = resolved%tooth_compliance*load%load/thinner
+         share = resolved%deflection_by_load*load%load/thinner
          lines = '! steady film                          '//short_text(resolved%steady_film, 10)//' m'//end_of_line
          if (resolved%natural_frequency > 0.0_dp) lines = lines// &
                  '! natural frequency                    '//short_text(resolved%natural_frequency, 6)//' Hz'//end_of_line// &
@@ -330,7 +330,7 @@ contains
 
       call log%line('  '//verdict_sentence(judged))
       associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest)
-         call log%line('  film '//micrometres(lowest(seen_film)%value)//' to '//micrometres(highest(seen_film)%value)// &
+         call log%line('  film '//micrometres(lowest(seen_films(1))%value)//' to '//micrometres(highest(seen_films(1))%value)// &
                        ' um, acceleration '// &
                        short_text(lowest(seen_acceleration)%value, digits_of_extremes)//' to '// &
                        short_text(highest(seen_acceleration)%value, digits_of_extremes)//' m/s2'//acceleration_words(scene))
@@ -426,7 +426,7 @@ contains
       if (scene%gear%given) then
          warning = warning//'gear.tooth_stiffness = '//short_text(steel_tooth, 2)//' N/m2'
       else
-         warning = warning//'contact.stiffness = '//short_text(scene%contact%flank_stiffness(steel_tooth), 2)//' N/m'
+         warning = warning//'contact.stiffness = '//short_text(scene%contact%stiffness_of_width(steel_tooth), 2)//' N/m'
       end if
    end function stiffness_warning
 

@@ -7,7 +7,7 @@ module flank_elasticity
    private
 
    public :: equivalent_radius, plane_strain_modulus, contact_radius, elastic_scale, roelands_logarithm, flank_compliance, &
-             flattening_compliance
+             flattening_compliance, deflection_by_load
 
 contains
 
@@ -94,5 +94,16 @@ contains
       if (.not. scene%contact%flattening_included .or. (stiff .and. scene%film%law == law_elastohydrodynamic)) &
          flank_compliance = flank_compliance + flattening_compliance(scene)
    end function flank_compliance
+
+   !> By how much a tooth deflects under a load; of teeth that are taken for rigid one of some stiffness [m/N].
+   elemental real(dp) function deflection_by_load(contact, tooth_stiffness)
+      !> Checked, derived contact
+      type(contact_t), intent(in) :: contact
+      !> Of rigid teeth, c' of ISO 6336-1 [N/m2]
+      real(dp), intent(in) :: tooth_stiffness
+
+      deflection_by_load = 1.0_dp/contact%stiffness_of_width(tooth_stiffness)
+      if (contact%stiffness > 0.0_dp) deflection_by_load = 1.0_dp/contact%stiffness
+   end function deflection_by_load
 
 end module flank_elasticity

@@ -62,6 +62,26 @@ module quantities
          quantity_periods_solved, quantity_evaluations, quantity_steps, quantity_steps_cut, quantity_iterations_per_step
    end enum
 
+   !> What is told of each contact, and the codes of its quantities: that of the drive flank, that of the coast flank.
+   integer, parameter :: told_film_minimum = 1, told_film_maximum = 2, told_load_maximum = 3, told_impacts = 4, &
+                         told_impacts_per_period = 5, told_impact_load_maximum = 6, told_impact_velocity_maximum = 7, &
+                         told_impact_impulse_maximum = 8, told_impact_impulse_mean = 9, told_impact_times = 10, &
+                         told_impact_loads = 11, told_impact_velocities = 12, told_impact_impulses = 13
+   integer, parameter :: quantities_of_contacts(2, 13) = reshape([ &
+      quantity_film_minimum, quantity_coast_film_minimum, &
+      quantity_film_maximum, quantity_coast_film_maximum, &
+      quantity_load_maximum, quantity_coast_load_maximum, &
+      quantity_impacts_drive, quantity_impacts_coast, &
+      quantity_impacts_per_period_drive, quantity_impacts_per_period_coast, &
+      quantity_impact_load_maximum_drive, quantity_impact_load_maximum_coast, &
+      quantity_impact_velocity_maximum_drive, quantity_impact_velocity_maximum_coast, &
+      quantity_impact_impulse_maximum_drive, quantity_impact_impulse_maximum_coast, &
+      quantity_impact_impulse_mean_drive, quantity_impact_impulse_mean_coast, &
+      quantity_impact_times_drive, quantity_impact_times_coast, &
+      quantity_impact_loads_drive, quantity_impact_loads_coast, &
+      quantity_impact_velocities_drive, quantity_impact_velocities_coast, &
+      quantity_impact_impulses_drive, quantity_impact_impulses_coast], [2, 13])
+
    !> One quantity.
    type :: quantity_t
       integer :: code

@@ -43,9 +43,11 @@ module scene_types
                                                          'squeeze_velocity', 'acceleration', 'film_load', &
                                                          'coast_film', 'coast_load', 'gear_position']
    character(*), parameter, public :: column_units(9) = [character(4) :: 's', 'N', 'm', 'm/s', 'm/s2', 'N', 'm', 'N', 'm']
-   integer, parameter, public :: column_time = 1, column_applied_force = 2, column_film_thickness = 3, &
-                                 column_squeeze_velocity = 4, column_acceleration = 5, column_film_load = 6, &
-                                 column_coast_film = 7, column_coast_load = 8, column_gear_position = 9
+   integer, parameter, public :: column_time = 1, column_applied_force = 2, column_squeeze_velocity = 4, &
+                                 column_acceleration = 5, column_gear_position = 9
+
+   !> Columns of the film and of its load, of the drive flank and of the coast flank
+   integer, parameter, public :: columns_of_films(2) = [3, 7], columns_of_loads(2) = [6, 8]
 
    !> &contact
    type, public :: contact_t
@@ -68,7 +70,7 @@ module scene_types
       !> Width of all teeth in contact [m]; 0: the contact length
       real(dp) :: tooth_width = 0.0_dp
    contains
-      procedure :: flank_stiffness
+      procedure :: stiffness_of_width
    end type contact_t
 
    !> Sums of keys that are smaller than this come of rounding, and lead out of the range of the reals: Q + m g [N], U [m/s]
@@ -611,14 +613,14 @@ contains
       if (self%bearing_mean_diameter > 0.0_dp) drag_known_by = drag_computed
    end function drag_known_by
 
-   !> Stiffness of a flank whose teeth have one for each metre of their width [N/m].
-   elemental real(dp) function flank_stiffness(self, tooth_stiffness)
+   !> Stiffness of teeth that have one for each metre of their width [N/m].
+   elemental real(dp) function stiffness_of_width(self, tooth_stiffness)
       class(contact_t), intent(in) :: self
       !> c' of ISO 6336-1 [N/m2]
       real(dp), intent(in) :: tooth_stiffness
 
-      flank_stiffness = tooth_stiffness*merge(self%tooth_width, self%length, self%tooth_width > 0.0_dp)
-   end function flank_stiffness
+      stiffness_of_width = tooth_stiffness*merge(self%tooth_width, self%length, self%tooth_width > 0.0_dp)
+   end function stiffness_of_width
 
    !> Weight m g of the tooth pair [N].
    elemental real(dp) function weight(self)

@@ -5,7 +5,7 @@ module verification
       doubt_largest_harmonic, doubt_momentum, doubt_parting, doubt_return, doubt_sentence, doubt_t, is_doubted, parting_sentence
    use kinds, only: dp
    use vibration_severity, only: vibration_severity_t
-   use node_extremes, only: seen_acceleration, seen_coast_film, seen_film
+   use node_extremes, only: seen_acceleration, seen_films
    use problem, only: of_velocity
    use regime_check, only: gap_too_wide, model_limit
    use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, is_off_harmonics, rattle_verdict_t
@@ -69,8 +69,8 @@ contains
    !> Verification of a window by a tighter one of the same samples.
    pure subroutine compare_windows(films, tight_films, extremes, tight_extremes, verdict, tight_verdict, unclosed, choice, &
                                    tolerance, tight_accuracy, tight_noise, verification)
-      !> Films of the scene and of its tighter solution: sample, flank [m]. Their errors count against the thinner film of both
-      !> flanks.
+      !> Films of the scene and of its tighter solution: sample, contact [m]. Their errors count against the thinnest film of
+      !> all contacts.
       real(dp), intent(in) :: films(:, :)
       real(dp), intent(in) :: tight_films(:, :)
       !> Extremes of both
@@ -92,19 +92,22 @@ contains
       type(verification_t), intent(out) :: verification
       real(dp), allocatable :: differences(:)
       real(dp) :: peaks(2), errors(2), film_difference, reached
-      integer :: lines
+      integer :: lines, contact
 
       verification%exists = .true.
       reached = tight_accuracy
-      ! The coast film is what the other one leaves of the backlash, whose last digit is a share of a thin one.
-      if (size(films, 2) > 1) reached = max(reached, epsilon(1.0_dp)*tight_extremes%highest(seen_film)%value/ &
-                                            max(tiny(1.0_dp), tight_extremes%lowest(seen_coast_film)%value))
-      errors = errors_of(seen_film, 0.0_dp)
+      ! Other films are what the first one leaves of the backlash, whose last digit is a share of a thin one.
+      do contact = 2, size(films, 2)
+         reached = max(reached, epsilon(1.0_dp)*tight_extremes%highest(seen_films(1))%value/ &
+                       max(tiny(1.0_dp), tight_extremes%lowest(seen_films(contact))%value))
+      end do
+      errors = errors_of(seen_films(1), 0.0_dp)
       verification%film_minimum_error = errors(1)
       verification%film_maximum_error = errors(2)
-      film_difference = max(maxval(maxval(abs(films - tight_films), dim=2)/minval(min(films, tight_films), dim=2)), &
-                            error_in_film(seen_film))
-      if (size(films, 2) > 1) film_difference = max(film_difference, error_in_film(seen_coast_film))
+      film_difference = maxval(maxval(abs(films - tight_films), dim=2)/minval(min(films, tight_films), dim=2))
+      do contact = 1, size(films, 2)
+         film_difference = max(film_difference, error_in_film(seen_films(contact)))
+      end do
       verification%film_error = margin*film_difference
       errors = errors_of(seen_acceleration, tight_noise)
       verification%acceleration_minimum_error = errors(1)
@@ -237,8 +240,8 @@ contains
       real(dp), intent(in) :: radius
 
       doubt = doubt_t()
-      if (record%periods == 0 .or. .not. record%wants(seen_film)) return
-      associate (largest => record%highest(seen_film)%value)
+      if (record%periods == 0 .or. .not. record%wants(seen_films(1))) return
+      associate (largest => record%highest(seen_films(1))%value)
          if (model_limit(radius, largest, radius) == gap_too_wide) doubt = doubt_t(doubt_flight, numbers=[largest, radius])
       end associate
    end function doubt_of_flight
@@ -263,18 +266,18 @@ contains
       type(rattle_verdict_t), intent(in) :: verdict
       !> Of the window
       integer, intent(in) :: periods
-      !> Films where the window begins and where it ends: state, flank [m]
+      !> Films where the window begins and where it ends: state, contact [m]
       real(dp), intent(in) :: films(:, :)
       !> Difference of films up to which a regular motion is verified [-]
       real(dp), intent(in) :: tolerance
       real(dp) :: differences(size(films, 2))
-      integer :: flank
+      integer :: contact
 
       doubt = doubt_t()
       if (periods > 1 .or. is_off_harmonics(verdict%class) .or. verdict%class == class_subharmonic) return
       differences = abs(films(2, :) - films(1, :))/minval(films, dim=1)
-      flank = maxloc(differences, dim=1)
-      if (differences(flank) > tolerance) doubt = doubt_t(doubt_return, numbers=films(:2, flank))
+      contact = maxloc(differences, dim=1)
+      if (differences(contact) > tolerance) doubt = doubt_t(doubt_return, numbers=films(:2, contact))
    end function doubt_of_return
 
    !> How many windows behind the one that is judged a motion has to be irregular in too. One that hits a flank now and then may be

@@ -2,10 +2,10 @@
 !> the samples where each is a step of its own (Newmark's method).
 module window_extremes
    use kinds, only: dp
-   use node_extremes, only: extreme_t, seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, &
-      seen_net_load, seen_position, seen_pressure, seen_quantities, seen_velocity
-   use carried_loads, only: coast_films, coast_loads, drive_loads, gear_positions, largest_pressures, net_loads
-   use problem, only: has_elastic_teeth, has_two_flanks, of_film, of_velocity, problem_t
+   use node_extremes, only: extreme_t, seen_acceleration, seen_films, seen_loads, seen_net_load, seen_position, seen_pressure, &
+      seen_quantities, seen_velocity
+   use carried_loads, only: contact_films, contact_loads, gear_positions, largest_pressures, net_loads
+   use problem, only: contact_count, has_own_position, of_velocity, problem_t
    use value_range, only: range_of
    use window_record, only: window_record_t
    implicit none(type, external)
@@ -42,25 +42,24 @@ contains
       real(dp), intent(in) :: accelerations(:)
       type(window_extremes_t) :: extremes
       real(dp) :: values(block)
-      integer :: first, last
+      integer :: first, last, contact
 
       do first = 1, size(states, 1), block
          last = min(first + block - 1, size(states, 1))
          associate (here => states(first:last, :), part => values(:last - first + 1))
-            call note(seen_film, here(:, of_film), extremes)
+            do contact = 1, contact_count(problem)
+               call note(seen_films(contact), contact_films(problem, contact, here), extremes)
+               call contact_loads(problem, contact, here, part)
+               call note(seen_loads(contact), part, extremes)
+            end do
             call note(seen_velocity, here(:, of_velocity), extremes)
             call note(seen_acceleration, accelerations(first:last), extremes)
-            call drive_loads(problem, here, part)
-            call note(seen_load, part, extremes)
             call largest_pressures(problem, here, part)
             call note(seen_pressure, part, extremes)
-            if (has_elastic_teeth(problem)) call note(seen_position, gear_positions(problem, here), extremes)
-            if (.not. has_two_flanks(problem)) cycle
-            call coast_loads(problem, here, part)
-            call note(seen_coast_load, part, extremes)
+            if (has_own_position(problem)) call note(seen_position, gear_positions(problem, here), extremes)
+            if (contact_count(problem) == 1) cycle
             call net_loads(problem, here, part)
             call note(seen_net_load, part, extremes)
-            call note(seen_coast_film, coast_films(problem, here), extremes)
          end associate
       end do
 

@@ -3,8 +3,8 @@ module window_impacts
    use impacts, only: impact_count_t, impacts_of_watch
    use kinds, only: dp
    use load_record, only: load_record_t, record_load_samples, start_loads
-   use node_extremes, only: seen_load, seen_net_load
-   use problem, only: has_two_flanks, problem_t
+   use node_extremes, only: seen_net_load_of
+   use problem, only: most_contacts, problem_t
    use window_extremes, only: window_extremes_t
    use window_record, only: window_record_t
    implicit none(type, external)
@@ -13,12 +13,12 @@ module window_impacts
    !> Verdicts.
    integer, parameter, public :: no_separation = 0, separation_alone = 1, single_sided_impacts = 2, double_sided_impacts = 3
 
-   !> Impacts of drive and coast flank, with times in periods since the window began and impulses in N s.
+   !> Impacts on each contact, with times in periods since the window began and impulses in N s.
    type, public :: window_impacts_t
       logical :: exists = .false.
       !> Periods that they were looked for in: those of the window, but for what only repeats them
       integer :: periods = 0
-      type(impact_count_t) :: flanks(2)
+      type(impact_count_t) :: contacts(most_contacts)
       !> Share of the window in which the drive film is unloaded [-]
       real(dp) :: unloaded_share = 0.0_dp
    end type window_impacts_t
@@ -65,29 +65,29 @@ contains
       integer, intent(in) :: periods
       !> [Hz]
       real(dp), intent(in) :: frequency
-      integer :: flank
+      integer :: contact
 
       impacts%exists = .true.
       impacts%periods = periods
       impacts%unloaded_share = loads%unloaded/real(periods, dp)
-      do flank = 1, size(impacts%flanks)
-         associate (of_flank => impacts%flanks(flank))
-            of_flank = impacts_of_watch(loads%flanks(flank), real(periods, dp))
-            of_flank%impulse_maximum = of_flank%impulse_maximum/frequency
-            of_flank%impulse_sum = of_flank%impulse_sum/frequency
-            if (allocated(of_flank%kept)) of_flank%kept%impulse = of_flank%kept%impulse/frequency
+      do contact = 1, size(impacts%contacts)
+         associate (here => impacts%contacts(contact))
+            here = impacts_of_watch(loads%contacts(contact), real(periods, dp))
+            here%impulse_maximum = here%impulse_maximum/frequency
+            here%impulse_sum = here%impulse_sum/frequency
+            if (allocated(here%kept)) here%kept%impulse = here%kept%impulse/frequency
          end associate
       end do
    end function impacts_of_loads
 
-   !> Whether what both films carry together changes its sign.
+   !> Whether what all contacts carry together changes its sign.
    pure logical function has_reversal(problem, extremes)
       type(problem_t), intent(in) :: problem
-      !> Extremes of the net load, or of the load of a single flank
+      !> Of the window
       type(window_extremes_t), intent(in) :: extremes
       integer :: carried
 
-      carried = merge(seen_net_load, seen_load, has_two_flanks(problem))
+      carried = seen_net_load_of(problem)
       has_reversal = extremes%lowest(carried)%value < 0.0_dp .and. extremes%highest(carried)%value > 0.0_dp
    end function has_reversal
 
@@ -106,7 +106,7 @@ contains
       type(window_extremes_t), intent(in) :: extremes
       type(window_impacts_t), intent(in) :: impacts
 
-      select case (count(impacts%flanks%count > 0))
+      select case (count(impacts%contacts%count > 0))
       case (2)
          verdict_of = double_sided_impacts
       case (1)
@@ -125,7 +125,7 @@ contains
       type(window_impacts_t), intent(in) :: others
 
       agreement%verdict = verdict_of(problem, extremes, impacts) == verdict_of(problem, other_extremes, others)
-      agreement%numbers = all(impacts%flanks%count*others%periods == others%flanks%count*impacts%periods)
+      agreement%numbers = all(impacts%contacts%count*others%periods == others%contacts%count*impacts%periods)
    end function agreement_of
 
 end module window_impacts

@@ -5,9 +5,8 @@ module test_automatic_model
    use checks, only: check_list_t
    use judged_scene, only: judged_scene_t
    use kinds, only: dp
-   use load_points, only: coast_flank, drive_flank
-   use node_extremes, only: seen_coast_load, seen_load, seen_net_load
-   use problem, only: largest_applied_force
+   use node_extremes, only: seen_loads, seen_net_load
+   use problem, only: coast_flank, drive_flank, largest_applied_force
    use resolved_scene, only: resolve
    use scene_status, only: status_complete, status_film_lost, status_interrupted
    use scene_types, only: viscosity_constant, viscosity_roelands
@@ -43,12 +42,12 @@ contains
       judged%status = status_complete
       judged%judged = .true.
       force = largest_applied_force(judged%resolved%problem)
-      judged%extremes%highest(seen_load)%value = drive*force
-      judged%extremes%highest(seen_coast_load)%value = coast*force
+      judged%extremes%highest(seen_loads(1))%value = drive*force
+      judged%extremes%highest(seen_loads(2))%value = coast*force
       judged%extremes%lowest(seen_net_load)%value = least*force
       judged%impacts%exists = .true.
-      judged%impacts%flanks(drive_flank)%count = merge(1, 0, drive > impact_limit)
-      judged%impacts%flanks(coast_flank)%count = merge(1, 0, coast > impact_limit)
+      judged%impacts%contacts(drive_flank)%count = merge(1, 0, drive > impact_limit)
+      judged%impacts%contacts(coast_flank)%count = merge(1, 0, coast > impact_limit)
    end function judged_as
 
    !> Each limit from both sides, within the error of the closure, 2.4 % of Roelands' oil and 0.93 % of oil of constant viscosity (0.49 %
@@ -75,9 +74,9 @@ contains
       call expect(judged, .false., 'one that is often')
       ! M = 2 is 424 N in scene G, alpha p = 8 is 508 MPa.
       judged = judged_as(viscosity_roelands, 10.0_dp, 10.0_dp, -9.0_dp)
-      judged%extremes%highest(seen_coast_load)%value = 430.0_dp
+      judged%extremes%highest(seen_loads(2))%value = 430.0_dp
       call expect(judged, .true., 'a load beyond the range of the closure')
-      judged%extremes%highest(seen_coast_load)%value = 420.0_dp
+      judged%extremes%highest(seen_loads(2))%value = 420.0_dp
       call expect(judged, .false., 'one within')
       judged%regime%pressure_maximum = 520.0e6_dp
       call expect(judged, .true., 'a pressure beyond it')

@@ -12,9 +12,9 @@ module test_elastic_teeth
    use kinds, only: dp
    use linear_motion, only: natural_motion
    use many_motions, only: solve_motions
-   use node_extremes, only: seen_coast_film, seen_coast_load, seen_load, seen_position
+   use node_extremes, only: seen_films, seen_loads, seen_position
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
-   use carried_loads, only: coast_films, gear_positions, initial_state
+   use carried_loads, only: contact_films, gear_positions, initial_state
    use problem, only: film_at_rest, films_at_rest, loads_at_rest, of_drive_compression, of_film, of_velocity, problem_of, &
       problem_t, static_load
    use quantities, only: quantity_damping_ratio, quantity_natural_frequency
@@ -130,11 +130,11 @@ contains
       call near(amplitudes(1:size(harmonics)), harmonics, agreement, 'harmonics')
       ! An impact between two samples is a little sharper than at one of them.
       call near([record%lowest(seen_position)%value, record%highest(seen_position)%value], positions, 1.0e-4_dp, 'extremes')
-      call near([record%highest(seen_load)%value], loads(2:), 1.0e-3_dp, 'largest load')
+      call near([record%highest(seen_loads(1))%value], loads(2:), 1.0e-3_dp, 'largest load')
       if (present(coast_films)) then
-         call near([record%lowest(seen_coast_film)%value, record%highest(seen_coast_film)%value], coast_films, 1.0e-4_dp, &
+         call near([record%lowest(seen_films(2))%value, record%highest(seen_films(2))%value], coast_films, 1.0e-4_dp, &
                    'coast film')
-         call near([record%highest(seen_coast_load)%value], coast_loads(2:), 1.0e-3_dp, 'largest load of the coast film')
+         call near([record%highest(seen_loads(2))%value], coast_loads(2:), 1.0e-3_dp, 'largest load of the coast film')
       end if
       call checks%check(energy_gap(record, problem%mass) < 1.0e-7_dp, name//': energy closes')
       orbit = find_periodic_orbit(problem, found%numbers, 0.02_dp)
@@ -428,8 +428,8 @@ contains
          call solve_window(turned, start_of(turned), accuracy, 64, 3, 1, turned_states, turned_z, ending, record)
          call checks%check(ending%status == status_complete, 'mirror: solved on the coast flank')
          if (ending%status /= status_complete) cycle
-         call checks%check(maxval(abs(coast_films(turned, turned_states)/states(:, of_film) - 1.0_dp)) < 1.0e-6_dp .and. &
-                           maxval(abs(turned_states(:, of_film)/coast_films(pressed, states) - 1.0_dp)) < 1.0e-6_dp, &
+         call checks%check(maxval(abs(contact_films(turned, 2, turned_states)/states(:, of_film) - 1.0_dp)) < 1.0e-6_dp .and. &
+                           maxval(abs(turned_states(:, of_film)/contact_films(pressed, 2, states) - 1.0_dp)) < 1.0e-6_dp, &
                            'mirror: the films change places')
          call checks%check(maxval(abs(turned_z + z)) < 1.0e-6_dp*maxval(abs(z)), 'mirror: the acceleration turns')
       end do

@@ -12,8 +12,8 @@ module test_elastohydrodynamic_closure
    use film_law, only: film_load, film_t, new_film, squeeze_velocity, steady_film
    use flank_elasticity, only: flank_compliance, flattening_compliance
    use kinds, only: dp
-   use node_extremes, only: seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load
-   use problem, only: linearise, films_at_rest, problem_of, problem_t
+   use node_extremes, only: seen_acceleration, seen_films, seen_loads
+   use problem, only: films_at_rest, linearise, problem_of, problem_t
    use reynolds_iso_viscous, only: iso_viscous_load
    use scene_status, only: status_complete
    use scene_types, only: law_elastohydrodynamic, law_iso_viscous, model_closure, model_reynolds, scene_t, viscosity_barus, &
@@ -347,8 +347,8 @@ contains
          call solve_window(problem, start_of(problem), 1.0e-7_dp, 256, 12, 1, states, samples, ending, record)
          call checks%check(ending%status == status_complete, 'scene G is solved')
          associate (lowest => record%lowest, highest => record%highest)
-            found = [highest(seen_acceleration)%value, lowest(seen_acceleration)%value, lowest(seen_film)%value, &
-                     lowest(seen_coast_film)%value, highest(seen_load)%value, highest(seen_coast_load)%value]
+            found = [highest(seen_acceleration)%value, lowest(seen_acceleration)%value, lowest(seen_films(1))%value, &
+                     lowest(seen_films(2))%value, highest(seen_loads(1))%value, highest(seen_loads(2))%value]
          end associate
          do j = 1, 6
             call checks%check_close(found(j)/in_nodes(j, i), 1.0_dp, errors(j, i), 'scene G, '//trim(law_names(laws(i)))//': '// &

@@ -10,8 +10,8 @@ module test_gearbox_table
    use gearbox_table, only: pair_row_t, row_of_pair, together, together_t, whole_gearbox, write_table
    use judged_scene, only: judged_scene_t
    use kinds, only: dp
-   use load_points, only: coast_flank, drive_flank
-   use node_extremes, only: seen_acceleration, seen_film
+   use problem, only: coast_flank, drive_flank
+   use node_extremes, only: seen_acceleration, seen_films
    use output_place, only: log_path, summary_path
    use rattle_class, only: class_idle
    use resolved_scene, only: resolve
@@ -63,7 +63,7 @@ contains
       judged%rattle%class = class_idle
       judged%verification%exists = .true.
       judged%verification%verified = number == 1
-      judged%extremes%lowest(seen_film)%value = real(number, dp)*1.2345e-7_dp
+      judged%extremes%lowest(seen_films(1))%value = real(number, dp)*1.2345e-7_dp
       judged%extremes%lowest(seen_acceleration)%value = -real(number, dp)*20.0_dp
       judged%extremes%highest(seen_acceleration)%value = real(number, dp)**2*10.0_dp
       judged%severity%acceleration_rms = 0.5_dp + real(number, dp)
@@ -71,8 +71,8 @@ contains
       judged%severity%dissipated_energy = powers(number)/judged%resolved%problem%frequency
       judged%impacts%exists = .true.
       judged%impacts%periods = 1
-      judged%impacts%flanks(drive_flank)%count = 1
-      judged%impacts%flanks(coast_flank)%count = number - 1
+      judged%impacts%contacts(drive_flank)%count = 1
+      judged%impacts%contacts(coast_flank)%count = number - 1
       accelerations = [(forces(number)/judged%resolved%problem%mass*cos(two_pi*real(i, dp)/64.0_dp + phases(number)), i=1, 64)]
       if (judged%judged) judged%film_force = signal_of_window(judged%resolved%problem, accelerations, 1, 10, .true., &
                                                               judged%severity%film_force_rms)

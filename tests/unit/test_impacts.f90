@@ -55,8 +55,8 @@ contains
          all_loads(2:1 + size(loads)) = loads
          do shift = 0, samples - 1
             impacts = impacts_of_samples(pressed(0.0_dp), 1.5_dp, samples, states_of(cshift(all_loads, shift)))
-            associate (drive => impacts%flanks(1))
-               call checks%check(drive%count == size(tops) .and. impacts%flanks(2)%count == 0, name//': their number')
+            associate (drive => impacts%contacts(1))
+               call checks%check(drive%count == size(tops) .and. impacts%contacts(2)%count == 0, name//': their number')
                if (size(tops) == 0) cycle
                call checks%check_close(drive%load_maximum, maxval(tops), 0.0_dp, name//': largest load')
                call checks%check_close(drive%impulse_maximum, maxval(impulses)/real(samples, dp), rounding, name//': impulse')
@@ -99,7 +99,7 @@ contains
       loads = [(3.0_dp + cos(two_pi*real(i, dp)/real(samples, dp)), i=1, 2*samples)]
       do i = 1, 2
          impacts = impacts_of_samples(pressed(0.0_dp), 1.5_dp, samples, states_of(loads(:i*samples)))
-         call checks%check(impacts%exists .and. impacts%flanks(1)%count == 0, 'held: no impact')
+         call checks%check(impacts%exists .and. impacts%contacts(1)%count == 0, 'held: no impact')
       end do
    end subroutine test_held
 
@@ -167,9 +167,9 @@ contains
          type(impact_agreement_t) :: agreement
 
          impacts%periods = periods
-         impacts%flanks(1)%count = count
+         impacts%contacts(1)%count = count
          others%periods = other_periods
-         others%flanks(1)%count = other_count
+         others%contacts(1)%count = other_count
          agreement = agreement_of(pressed(0.0_dp), extremes, impacts, extremes, others)
          agree = agreement%numbers
       end function agree

@@ -17,8 +17,8 @@ module test_inner_states
    use matrix_values, only: eigenvalues
    use output_place, only: state_path
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
-   use problem, only: film_at_rest, films_at_rest, flank_count, has_elastic_teeth, inner_places, of_drive_compression, of_film, &
-      of_velocity, problem_of, problem_t, state_numbers, state_size, static_load
+   use problem, only: contact_count, film_at_rest, films_at_rest, has_elastic_teeth, inner_places, of_drive_compression, &
+      of_film, of_velocity, problem_of, problem_t, state_numbers, state_size, static_load
    use quantities, only: a_list, quantities_told_in, quantity_acceleration_maximum, quantity_verified, quantity_film_minimum, &
                          quantity_rattle_class, quantity_table
    use relaxing_film, only: chain_length, relaxing_film_t
@@ -154,7 +154,7 @@ contains
 
          slope = 0.0_dp
          net = 0.0_dp
-         do flank = 1, flank_count(problem)
+         do flank = 1, contact_count(problem)
             places = inner_places(problem, flank)
             of_spring = of_velocity + flank
             turn = merge(1.0_dp, -1.0_dp, flank == 1)

@@ -7,9 +7,8 @@ module test_judged_scene
    use impacts, only: impact_t
    use judged_scene, only: judged_scene_t, quantity_list, quantity_value
    use kinds, only: dp
-   use load_points, only: coast_flank, drive_flank
-   use node_extremes, only: seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, seen_position, &
-                            seen_quantities, seen_velocity
+   use problem, only: coast_flank, drive_flank
+   use node_extremes, only: seen_acceleration, seen_films, seen_loads, seen_position, seen_quantities, seen_velocity
    use quantities, only: quantity_table
    use rattle_class, only: class_creep, class_idle, class_irregular
    use resolved_scene, only: resolve
@@ -101,7 +100,7 @@ contains
       judged%impacts%exists = .true.
       judged%impacts%periods = 4
       judged%impacts%unloaded_share = 0.25_dp
-      associate (drive => judged%impacts%flanks(drive_flank), coast => judged%impacts%flanks(coast_flank))
+      associate (drive => judged%impacts%contacts(drive_flank), coast => judged%impacts%contacts(coast_flank))
          drive%count = 8
          coast%count = 20
          drive%load_maximum = 61.0_dp
@@ -155,13 +154,13 @@ contains
       call expect('dissipated_energy', 34.0_dp)
       call expect('dissipated_power', 34.0_dp*judged%resolved%problem%frequency)
       call expect('crest_factor', (200.0_dp + real(seen_acceleration, dp))/31.0_dp)
-      call extremes('film', seen_film)
+      call extremes('film', seen_films(1))
       call extremes('velocity', seen_velocity)
       call extremes('acceleration', seen_acceleration)
-      call extremes('load', seen_load)
-      call extremes('coast_film', seen_coast_film)
+      call extremes('load', seen_loads(1))
+      call extremes('coast_film', seen_films(2))
       call extremes('gear_position', seen_position)
-      call expect('coast_load_maximum', 200.0_dp + real(seen_coast_load, dp))
+      call expect('coast_load_maximum', 200.0_dp + real(seen_loads(2), dp))
       call expect('alpha_p_maximum', 41.0_dp)
       call expect('pressure_maximum', 42.0_dp)
       call expect('deflection', 43.0_dp)

@@ -8,7 +8,7 @@ module test_nodal_engine
    use kinds, only: dp
    use nodal_step, only: nodal_choice_t
    use nodal_scene, only: choice_of, solve_nodal_scene, window_keeper_t
-   use node_extremes, only: seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, seen_pressure
+   use node_extremes, only: seen_acceleration, seen_films, seen_loads, seen_pressure
    use carried_loads, only: gear_positions
    use problem, only: problem_of, problem_t, state_size
    use resolved_scene, only: request_of
@@ -95,7 +95,7 @@ contains
          positions = gear_positions(problem_of(scene), keeper%states)
          start = sum(gear_positions(problem_of(scene), reshape(record%start%numbers, [1, size(record%start%numbers)])))
          found = [1.0e6_dp*(positions(256) - start), 1.0e6_dp*(positions(512) - start), &
-                  record%highest(seen_acceleration)%value, 1.0e6_dp*record%lowest(seen_film)%value]
+                  record%highest(seen_acceleration)%value, 1.0e6_dp*record%lowest(seen_films(1))%value]
          do j = 1, 4
             call checks%check_close(found(j)/reference(j, i), 1.0_dp, tolerances(j), &
                                     'canonical scene, '//trim(law_names(laws(i)))//': '//trim(names(j)))
@@ -145,8 +145,8 @@ contains
             call checks%check(ending%status == status_complete, 'scene G is solved')
             associate (lowest => record%lowest, highest => record%highest)
                found = [highest(seen_acceleration)%value, lowest(seen_acceleration)%value, sqrt(record%acceleration_square), &
-                        lowest(seen_film)%value, lowest(seen_coast_film)%value, highest(seen_load)%value, &
-                        highest(seen_coast_load)%value]
+                        lowest(seen_films(1))%value, lowest(seen_films(2))%value, highest(seen_loads(1))%value, &
+                        highest(seen_loads(2))%value]
             end associate
             do j = 1, 7
                call checks%check_close(found(j)/reference(j, law), 1.0_dp, errors(j, i) + last_digits(j), 'scene G, '// &
@@ -179,7 +179,7 @@ contains
       call checks%check(ending%status == status_complete, 'scene G is solved in nodes')
       call checks%check_close(record%highest(seen_acceleration)%value/all_in_nodes%highest(seen_acceleration)%value, 1.0_dp, &
                               1.0e-3_dp, 'the bound hardly matters to the peak')
-      call checks%check_close(record%lowest(seen_film)%value/all_in_nodes%lowest(seen_film)%value, 1.0_dp, 3.0e-3_dp, &
+      call checks%check_close(record%lowest(seen_films(1))%value/all_in_nodes%lowest(seen_films(1))%value, 1.0_dp, 3.0e-3_dp, &
                               'nor to the film')
    end subroutine test_bound
 

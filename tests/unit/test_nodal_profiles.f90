@@ -5,13 +5,12 @@ module test_nodal_profiles
    use engine, only: ending_t, unwatched_t
    use errors, only: error_t
    use kinds, only: dp
-   use load_points, only: coast_flank, drive_flank
    use nodal_film, only: smallest_film
    use nodal_profiles, only: at_largest_loads, nodal_profile_t, nodal_profiles_t
    use nodal_scene, only: choice_of, solve_nodal_scene, window_keeper_t
    use nodal_step, only: nodal_choice_t
-   use node_extremes, only: seen_coast_load, seen_load
-   use problem, only: problem_of, problem_t, state_size
+   use node_extremes, only: seen_loads
+   use problem, only: coast_flank, drive_flank, problem_of, problem_t, state_size
    use resolved_scene, only: request_of
    use scene_types, only: model_resolved, scene_t, viscosity_roelands
    use text, only: integer_text
@@ -73,7 +72,7 @@ contains
                            dot_product(grid%film_at_nodes(1, :), profile%pressures), profile%pressures)*(1.0_dp - 1.0e-12_dp), &
                            name//' has no film below its smallest one')
       end associate
-      call checks%check(profile%flank <= merge(2, 1, problem%backlash < 1.0_dp) .and. profile%time > 0.0_dp .and. &
+      call checks%check(profile%contact <= merge(2, 1, problem%backlash < 1.0_dp) .and. profile%time > 0.0_dp .and. &
                         profile%time <= 1.0_dp, name//' is of this window')
    end subroutine check_profile
 
@@ -94,7 +93,7 @@ contains
       impacts = impacts_of_record(record, problem%frequency)
       unit = problem%contact%film%closure%load_unit
       do flank = drive_flank, coast_flank
-         associate (kept => impacts%flanks(flank)%kept, name => 'impact on flank '//integer_text(flank))
+         associate (kept => impacts%contacts(flank)%kept, name => 'impact on flank '//integer_text(flank))
             call checks%check(size(kept) > 0, name//' is there')
             chosen = at_largest_loads(profiles, flank, kept%time, 1)
             do i = 1, size(kept)
@@ -104,7 +103,7 @@ contains
             end do
          end associate
          chosen = at_largest_loads(profiles, flank, [real(dp) ::], 1)
-         associate (largest => record%highest(merge(seen_load, seen_coast_load, flank == drive_flank))%value)
+         associate (largest => record%highest(merge(seen_loads(1), seen_loads(2), flank == drive_flank))%value)
             call checks%check(size(chosen) == 1, 'without impacts there is one')
             call checks%check_close(unit*chosen(1)%load/largest, 1.0_dp, 4.0e-3_dp, 'of the largest load')
          end associate
@@ -130,7 +129,7 @@ contains
          associate (profile => profiles%kept(i), phase => phases((i + 1)/2))
             call check_profile(checks, problem, profiles, profile, 'phase '//integer_text(i))
             call checks%check(profile%time >= phase*(1.0_dp - 1.0e-12_dp) .and. profile%time < phase + longest, 'at its phase')
-            call checks%check(profile%flank == 2 - modulo(i, 2), 'flank by flank')
+            call checks%check(profile%contact == 2 - modulo(i, 2), 'flank by flank')
          end associate
       end do
    end subroutine test_phases

@@ -10,7 +10,7 @@ module test_two_flanks
    use kinds, only: dp
    use many_motions, only: solve_motions
    use vibration_severity, only: severity_of_record, severity_of_samples, vibration_severity_t
-   use node_extremes, only: seen_acceleration, seen_coast_load, seen_film, seen_load, seen_net_load
+   use node_extremes, only: seen_acceleration, seen_films, seen_loads, seen_net_load
    use carried_loads, only: net_load
    use problem, only: film_at_rest, of_film, of_velocity, problem_of, problem_t, static_load
    use scene_status, only: is_success, status_complete
@@ -219,8 +219,8 @@ contains
       call checks%check(maxval(abs(amplitudes(1:size(harmonics)) - harmonics)) < agreement*maxval(harmonics), &
                         name//': harmonics')
       ! Largest loads of the references are those of 4096 samples, to six digits.
-      call checks%check(abs(record%highest(seen_load)%value/loads(1) - 1.0_dp) < 1.0e-4_dp, name//': drive load')
-      call checks%check(abs(record%highest(seen_coast_load)%value/loads(2) - 1.0_dp) < 1.0e-4_dp, name//': coast load')
+      call checks%check(abs(record%highest(seen_loads(1))%value/loads(1) - 1.0_dp) < 1.0e-4_dp, name//': drive load')
+      call checks%check(abs(record%highest(seen_loads(2))%value/loads(2) - 1.0_dp) < 1.0e-4_dp, name//': coast load')
       call checks%check(record%lowest(seen_net_load)%value < 0.0_dp, name//': double-sided')
       told = severity_of_record(record, problem%frequency)
       call checks%check_close(told%acceleration_rms/severity%acceleration_rms, 1.0_dp, 1.0e-6_dp, name//': rms')

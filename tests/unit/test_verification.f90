@@ -5,7 +5,7 @@ module test_verification
    use doubt, only: doubt_impacts, doubt_sentence, doubt_t, doubt_tighter_ending, is_doubted
    use engine, only: motion_state_t
    use kinds, only: dp
-   use node_extremes, only: seen_acceleration, seen_coast_film, seen_film
+   use node_extremes, only: seen_acceleration, seen_films
    use rattle_class, only: class_creep, class_idle, class_irregular, class_quiet, class_subharmonic, rattle_verdict_t
    use scene_status, only: status_time_limit
    use scene_types, only: spectrum_choice_t
@@ -91,8 +91,8 @@ contains
       real(dp), intent(in) :: values(:)  !> z'' [m/s2]
       type(window_extremes_t) :: extremes
 
-      extremes%lowest(seen_film)%value = minval(films)
-      extremes%highest(seen_film)%value = maxval(films)
+      extremes%lowest(seen_films(1))%value = minval(films)
+      extremes%highest(seen_films(1))%value = maxval(films)
       extremes%lowest(seen_acceleration)%value = minval(values)
       extremes%highest(seen_acceleration)%value = maxval(values)
    end function extremes_of
@@ -390,8 +390,8 @@ call checks%check(index(verification_sentence(verification), words) > 0, words//
 
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
       extremes = extremes_of(films, values)
-      extremes%lowest(seen_coast_film)%value = minval(coast)
-      extremes%highest(seen_coast_film)%value = maxval(coast)
+      extremes%lowest(seen_films(2))%value = minval(coast)
+      extremes%highest(seen_films(2))%value = maxval(coast)
       tight_extremes = extremes
       call compare_both(coast)
       ! Twenty times the last digit of the drive film, as a share of the coast film.
@@ -401,19 +401,19 @@ call checks%check(index(verification_sentence(verification), words) > 0, words//
       call compare_both(coast*[1.0_dp, 1.0_dp + error, 1.0_dp])
       call checks%check_close(verification%film_error, 2.0_dp*error, 1.0e-14_dp, 'coast film: error of a sample')
       call checks%check(.not. verification%verified, 'coast film: not verified')
-      extremes%lowest(seen_coast_film)%value = (1.0_dp - error)*minval(coast)
+      extremes%lowest(seen_films(2))%value = (1.0_dp - error)*minval(coast)
       call compare_both(coast)
       call checks%check_close(verification%film_error, 2.0_dp*error/(1.0_dp - error), 4.0e-13_dp, &
                               'coast film: error between samples')
-      tight_extremes%lowest(seen_coast_film)%value = 1.0e-9_dp*minval(coast)
-      extremes%lowest(seen_coast_film)%value = 1.0e-9_dp*minval(coast)
+      tight_extremes%lowest(seen_films(2))%value = 1.0e-9_dp*minval(coast)
+      extremes%lowest(seen_films(2))%value = 1.0e-9_dp*minval(coast)
       call compare_both(coast)
       call checks%check_close(verification%acceleration_error, 2.0e10_dp*epsilon(1.0_dp)*maxval(films)/minval(coast), 1.0e-9_dp, &
                               'coast film: so thin that the last digit of the drive film tells')
-      tight_extremes%lowest(seen_coast_film)%value = minval(coast)
-      extremes%lowest(seen_coast_film)%value = 1.0e-3_dp*minval(coast)
+      tight_extremes%lowest(seen_films(2))%value = minval(coast)
+      extremes%lowest(seen_films(2))%value = 1.0e-3_dp*minval(coast)
       call compare_both(coast*[1.0e-3_dp, 1.0_dp, 1.0_dp])
-      call checks%check(verification%film_error*extremes%lowest(seen_coast_film)%value > minval(coast), &
+      call checks%check(verification%film_error*extremes%lowest(seen_films(2))%value > minval(coast), &
                         'coast film: told far too thin, its error is a share of what is told')
 
    contains

@@ -7,8 +7,8 @@ module test_window_record
    use finer_windows, only: integral_record
    use kinds, only: dp
    use many_motions, only: solve_motions
-   use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_film, seen_load, seen_pressure, seen_quantities, &
-                            seen_velocity
+   use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_films, seen_loads, seen_pressure, &
+      seen_quantities, seen_velocity
    use carried_loads, only: accelerations_of_samples
    use problem, only: of_film, of_velocity, problem_of, problem_t
    use rattle_class, only: classify, classify_steps, rattle_verdict_t
@@ -307,7 +307,7 @@ contains
       call classify_steps(records(1), lane%frequency, choice, 1.0e-9_dp, verdict)
       call checks%check_close(verdict%spectrum%harmonics(1), 290.754_dp, 1.0e-3_dp, 'impact: first harmonic')
       call checks%check_close(verdict%spectrum%harmonics(2), 152.365_dp, 1.0e-3_dp, 'impact: second harmonic')
-      call checks%check(records(1)%lowest(seen_film)%value < 0.1e-9_dp, 'impact: thinnest film')
+      call checks%check(records(1)%lowest(seen_films(1))%value < 0.1e-9_dp, 'impact: thinnest film')
       call checks%check(records(1)%highest(seen_velocity)%value - records(1)%lowest(seen_velocity)%value > 5.0_dp, &
          'impact: jump of the velocity')
       call checks%check(verdict%spectrum%count_is_bound .and. verdict%spectrum%harmonic_count == records(1)%multiples, &
@@ -316,7 +316,7 @@ contains
          'impact: distortion by the whole power')
       call checks%check(momentum_gap(records(1), lane%frequency) < 1.0e-6_dp, 'impact: momentum closes')
       call checks%check(energy_gap(records(1), lane%mass) < 1.0e-6_dp, 'impact: energy closes')
-      call checks%check(all(records(1)%highest([seen_acceleration, seen_load, seen_pressure])%value > 1.0e10_dp), &
+      call checks%check(all(records(1)%highest([seen_acceleration, seen_loads(1), seen_pressure])%value > 1.0e10_dp), &
          'impact: peaks')
    end subroutine test_impact
 
