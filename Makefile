@@ -247,6 +247,8 @@ bench: bench-build
 	$(call against_peers,work_precision)
 	@$(PYTHON) tests/benchmarks/bench_skips.py $(NATIVE_BUILD)/rattle
 	@$(PYTHON) tests/benchmarks/bench_drag.py $(NATIVE_BUILD)/rattle
+	@$(PEER_ENV)/bin/python $(PEERS)/bench_nodes.py $(NATIVE_BUILD)/rattle --rounds $(ROUNDS) --flags $(NATIVE_BUILD)/flags
+	@$(PYTHON) tests/benchmarks/bench_closure.py $(NATIVE_BUILD)/rattle --rounds $(ROUNDS)
 	@$(PEER_ENV)/bin/python $(PEERS)/bench_campaign.py $(NATIVE_BUILD)/rattle
 	@$(PEER_ENV)/bin/python $(PEERS)/bench_gearbox.py $(NATIVE_BUILD)/rattle --count 9,9,7,7 --sample 32
 	@$(MAKE) --no-print-directory bench-changed

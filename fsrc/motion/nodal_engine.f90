@@ -3,7 +3,8 @@
 module nodal_engine
    use carried_loads, only: initial_state
    use clock, only: wall_seconds
-   use engine, only: checkpoint_t, ending_t, motion_watcher_t, motion_state_t, request_t, sample_sink_t, status_of_stop
+   use engine, only: checkpoint_t, ending_t, last_search_period, motion_watcher_t, motion_state_t, request_t, sample_sink_t, &
+                     status_of_stop
    use errors, only: error_t
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
@@ -12,10 +13,10 @@ module nodal_engine
                           share_that_leaves_a_film, step_weights_t, stiffen
    use nodal_profiles, only: nodal_profiles_t, note_profiles, start_profiles
    use nodal_state, only: pack_motion, unpack_motion
-   use nodal_step, only: begin_period, distance_of_states, first_step, gear_t, most_steps, motion_t, nodal_choice_t, set_up, &
-                         state_of, take_step
+   use nodal_step, only: begin_period, distance_of_states, fastest_of, first_step, gear_t, most_steps, motion_t, &
+                         nodal_choice_t, set_up, state_of, take_step
    use problem, only: of_drive_compression, of_film, of_velocity, problem_t, state_size, static_load
-   use repetition, only: longest_orbit
+   use repetition, only: kept_states, longest_orbit, orbit_watch_t
    use scene_status, only: status_complete, status_film_cycles, status_film_torn, status_interrupted, status_steady
    use signals, only: must_stop
    use step_nodes, only: add_piece, node_place, nodes_per_piece, step_nodes_t
@@ -26,7 +27,7 @@ module nodal_engine
    !> Newton's passes for the gear at rest: of them all, and before nodes change one by one
    integer, parameter :: most_rest_passes = 120, free_rest_passes = 80
    !> States at the ends of periods that are kept, and share of the tolerance of a step up to which a motion repeats
-   integer, parameter :: kept_periods = 4*longest_orbit + 1
+   integer, parameter :: kept_periods = kept_states
    real(dp), parameter :: repetition_share = 2.0_dp
 
    public :: solve_in_nodes
@@ -44,7 +45,7 @@ contains
       class(sample_sink_t), intent(inout) :: sink
       !> Told of progress
       class(motion_watcher_t), intent(inout) :: watcher
-      !> State to carry on from, and then the one from which the run can be extended; none of a run until steady
+      !> State to carry on from, and then the one from which the run can be extended
       type(checkpoint_t), intent(inout) :: checkpoint
       !> How it ended
       type(ending_t), intent(out) :: ending
@@ -61,12 +62,11 @@ contains
       type(nodal_profiles_t) :: kept
       real(dp), allocatable :: force(:), states(:, :), accelerations(:), first(:, :)
       real(dp), allocatable :: watched(:, :)
-      integer :: period, last, n, from
+      integer :: period, last, n, from, last_kept
       logical :: found, searching
-      real(dp) :: started, fastest
+      real(dp) :: started
 
       started = wall_seconds()
-      fastest = tiny(1.0_dp)
       n = request%samples_per_period
       call set_up(problem, choice, contact, gear)
       found = checkpoint%periods > 0
@@ -91,7 +91,15 @@ contains
       last = request%periods
       from = last - request%sampled_periods
       searching = request%until_steady
-      call sink%begin_window(int(from, int64)*int(n, int64) + 1_int64, request%sampled_periods*n)
+      last_kept = from
+      if (searching) last_kept = last_search_period(request%periods, request%sampled_periods)
+      if (checkpoint%orbit > 0) then
+         ending%orbit = checkpoint%orbit
+         searching = .false.
+         from = checkpoint%periods
+         last = from + ending%orbit
+      end if
+      call sink%begin_window(int(from, int64)*int(n, int64) + 1_int64, (last - from)*n)
       if (present(profiles)) kept = profiles
       if (from == checkpoint%periods) then
          call start_record(state_now(motion, from), record)
@@ -99,6 +107,7 @@ contains
       end if
       allocate (watched(state_size(problem), kept_periods), source=0.0_dp)
       watched(:, 1) = motion%states(1, :)
+      if (checkpoint%watch%count > 0) watched = checkpoint%watch%states
       period = checkpoint%periods
       do while (period < last)
          period = period + 1
@@ -115,11 +124,11 @@ contains
          if (allocated(error)) return
          if (period > from) call record_period(problem, motion%states(1, of_velocity), nodes, record)
          call begin_period(motion)
-         fastest = max(fastest, maxval(abs(states(:, of_velocity))))
          watched(:, 2:) = watched(:, :kept_periods - 1)
          watched(:, 1) = motion%states(1, :)
          if (searching) then
-            ending%orbit = orbit_of(problem, watched(:, :min(period + 1, kept_periods)), fastest, repetition_share*choice%tolerance)
+            ending%orbit = orbit_of(problem, watched(:, :min(period + 1, kept_periods)), fastest_of(gear, motion), &
+                                    repetition_share*choice%tolerance)
             if (ending%orbit > last - period) ending%orbit = 0
             searching = ending%orbit == 0
             if (.not. searching) then
@@ -128,9 +137,9 @@ contains
                call sink%begin_window(int(from, int64)*int(n, int64) + 1_int64, ending%orbit*n)
             end if
          end if
-         if (period == from .and. .not. request%until_steady) &
-            checkpoint = checkpoint_t(periods=period, numbers=motion%states(1, :), carried_on=.true., count=ending%count, &
-                                      nodal=pack_motion(problem, choice%nodes, motion))
+         ! Of a run until steady the last state from which a longer one goes on searching, or that at the start of its orbit
+         if (merge(period == from, period <= last_kept, ending%orbit > 0)) &
+            call keep_state(problem, choice, motion, period, ending, request%until_steady, watched, checkpoint)
          if (period == from) then
             call start_record(state_now(motion, period), record)
             call start_profiles(contact, kept)
@@ -144,6 +153,27 @@ contains
       ending%nodal = pack_motion(problem, choice%nodes, motion)
       if (present(profiles)) profiles = kept
    end subroutine solve_in_nodes
+
+   !> Keep a state from which the run can be extended.
+   pure subroutine keep_state(problem, choice, motion, period, ending, until_steady, watched, checkpoint)
+      type(problem_t), intent(in) :: problem
+      type(nodal_choice_t), intent(in) :: choice
+      !> At the end of a period
+      type(motion_t), intent(in) :: motion
+      !> Whole periods done
+      integer, intent(in) :: period
+      !> With the cost so far, and the periods after which the motion repeats if that is known
+      type(ending_t), intent(in) :: ending
+      !> Whether it is searched for repetition
+      logical, intent(in) :: until_steady
+      !> States that the search looks back on: number, period, the last one first
+      real(dp), intent(in) :: watched(:, :)
+      type(checkpoint_t), intent(out) :: checkpoint
+
+      checkpoint = checkpoint_t(periods=period, numbers=motion%states(1, :), carried_on=.true., count=ending%count, &
+                                orbit=ending%orbit, nodal=pack_motion(problem, choice%nodes, motion))
+      if (until_steady) checkpoint%watch = orbit_watch_t(count=min(period + 1, kept_periods), states=watched)
+   end subroutine keep_state
 
    !> Periods after which a motion repeats, 0 if it is not seen to: the states at the ends of successive periods come nearer to
    !> those before them, and are within the tolerance of where they lead to.

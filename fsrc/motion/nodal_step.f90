@@ -85,7 +85,7 @@ module nodal_step
    !> Steps of a period after which a motion is given up; it takes 400 to 800, and 2000 at the finest accuracy
    integer(int64), parameter, public :: most_steps = 50000_int64
 
-   public :: set_up, state_of, take_step, begin_period, distance_of_states
+   public :: set_up, state_of, take_step, begin_period, distance_of_states, fastest_of
 
 contains
 
@@ -245,6 +245,14 @@ contains
       motion%time = motion%time - 1.0_dp
       motion%time(1) = 0.0_dp
    end subroutine begin_period
+
+   !> Largest velocity so far [m/s].
+   pure real(dp) function fastest_of(gear, motion)
+      type(gear_t), intent(in) :: gear
+      type(motion_t), intent(in) :: motion
+
+      fastest_of = motion%fastest*gear%film_unit/gear%time_unit
+   end function fastest_of
 
    !> Relative distance of two states: of both films, and of velocities over the largest one.
    pure real(dp) function distance_of_states(problem, fastest, one, other) result(distance)

@@ -16,7 +16,8 @@ module nodal_orbit
    use nodal_flank, only: nodal_contact_t
    use nodal_film, only: smallest_film
    use nodal_state, only: unpack_motion
-   use nodal_step, only: begin_period, distance_of_states, gear_t, most_steps, motion_t, nodal_choice_t, set_up, state_of, take_step
+   use nodal_step, only: begin_period, distance_of_states, fastest_of, gear_t, most_steps, motion_t, nodal_choice_t, &
+                         set_up, state_of, take_step
    use nodal_tangent, only: combine, displace, neighbours, nodal_tangent_t, start_tangent
    use periodic_orbit, only: longest_period, periodic_orbit_t
    use problem, only: problem_t
@@ -204,14 +205,6 @@ contains
 
       units = gear%free_velocity*[gear%period/two_pi, 1.0_dp]
    end function units_of
-
-   !> Largest velocity so far [m/s].
-   pure real(dp) function fastest_of(gear, motion)
-      type(gear_t), intent(in) :: gear
-      type(motion_t), intent(in) :: motion
-
-      fastest_of = motion%fastest*gear%film_unit/gear%time_unit
-   end function fastest_of
 
    !> Position and velocity of each neighbour at present, from those of the motion: number, neighbour.
    pure function state_of_neighbours(gear, tangent) result(state)

@@ -157,7 +157,7 @@ contains
       associate (periods => scene%solver%periods, window => scene%spectrum%periods)
          latest_start = periods - window
          if (scene%solver%until /= until_steady) return
-         if (scene%solver%method == method_taylor) then
+         if (scene%solver%method == method_taylor .and. .not. (scene%film%model == model_resolved .and. state%orbit > 0)) then
             latest_start = last_search_period(periods, window)
          else if (state%orbit > 0) then
             latest_start = periods - state%orbit

@@ -108,18 +108,43 @@ def test_a_run_that_is_carried_on_is_that_of_one_long_run(nodes: int, run, tmp_p
         ).read_bytes()
 
 
-def test_a_run_until_steady_that_is_carried_on_starts_anew(run, tmp_path: Path) -> None:
-    (tmp_path / "one.nml").write_text(GEAR)
-    for folder, counts in (("whole", (80,)), ("parts", (60, 80))):
-        for count in counts:
-            number = f"solver.periods={count}"
-            ended = run(
-                *("--set", number, "--set", "spectrum.verify=false", "--resume", "--output", folder),
-                "one.nml",
-                cwd=tmp_path,
-            )
+@pytest.mark.parametrize(
+    ("force", "counts"),
+    (
+        ("force_amplitude = 20.0", (20, 52, 100)),
+        ("force_amplitude = 20.0", (100, 110)),
+        ("force_amplitude = 3.0", (11, 40)),
+    ),
+)
+def test_a_run_until_steady_that_is_carried_on_is_that_of_one_long_run(
+    force: str, counts: tuple[int, ...], run, tmp_path: Path
+) -> None:
+    """To the last bit: what the search looks back on is carried on; of what was found steady the periodic
+    motion alone is solved again."""
+    (tmp_path / "one.nml").write_text(FAST.replace("force_amplitude = 20.0", force))
+    told = []
+    for folder, parts in (("whole", counts[-1:]), ("parts", counts)):
+        for count in parts:
+            changes = (f"solver.periods={count}", "spectrum.periods=2", "spectrum.verify=false")
+            settings = [word for change in changes for word in ("--set", change)]
+            ended = run(*settings, "--resume", "--output", folder, "one.nml", cwd=tmp_path)
             assert ended.returncode == 0, ended.stderr
-    assert (tmp_path / "whole/one.rattle").read_bytes() == (tmp_path / "parts/one.rattle").read_bytes()
+        told.append(summary_of(tmp_path / folder / "one.summary.nml"))
+    assert (
+        told[0]["status"] == "steady" and "carried on from" in ended.stdout or "found steady" in ended.stdout
+    )
+    for name in (
+        "periods_solved",
+        "orbit_period",
+        "film_minimum",
+        "acceleration_maximum",
+        "steps",
+        "evaluations",
+    ):
+        assert told[0][name] == told[1][name], name
+    for ending in ("rattle", "state"):
+        whole, parts = (tmp_path / folder / f"one.{ending}" for folder in ("whole", "parts"))
+        assert whole.read_bytes() == parts.read_bytes(), ending
 
 
 def test_multipliers_are_what_deviations_decay_by(repository: Path) -> None:
