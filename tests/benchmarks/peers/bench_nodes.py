@@ -267,7 +267,7 @@ def input_of(scene: Scene) -> str:
    force_orders = {orders}, force_amplitudes = {amplitudes}, force_phases = {phases} /
 &film law = 'elastohydrodynamic', model = 'resolved' /
 &solver until = 'periods', periods = {scene.periods}, samples_per_period = 16 /
-&spectrum periods = {scene.periods}, verify = .false. /
+&spectrum periods = {scene.periods}, irregular_limit = 0.9, verify = .false. /
 &output series = .false. /
 """
 
