@@ -126,7 +126,8 @@ contains
       if (self%scene%spectrum%verify) call self%log%line('  the ends of a crossing go apart again until both are verified')
       if (has_ends(self%scene, self%threshold%axis%whole)) &
          call self%log%line('  then the motions of both sides, from '//counted(self%scene%solver%starts, 'start')// &
-                            ', are followed along '//key_name(self%threshold%axis%position)//' to where they end')
+                            ', are followed along '//key_name(self%threshold%axis%position)//' to where they end; in a trace '// &
+                            'without a crossing these starts are tried at both ends and in the middle')
    end subroutine report_start
 
    subroutine solve(self, error)
@@ -209,7 +210,7 @@ contains
       !> Paths of what was written
       type(word_t), intent(in) :: results(:)
       integer, intent(in) :: status
-      integer(int64) :: counts(3)
+      integer(int64) :: counts(4)
 
       call add_head(summary, task%scene, status)
       call add_results(summary, results, status)
@@ -224,6 +225,7 @@ contains
             call summary%add('crossings_followed', counts(1))
             call summary%add('crossings_either', counts(2))
             call summary%add('crossings_end_unsure', counts(3))
+            call summary%add('traces_with_another_side', counts(4))
          end if
          call summary%add('scenes', solved_scenes(outcome))
          call summary%add('scenes_failed', failed_scenes(outcome))
@@ -255,7 +257,7 @@ contains
       type(prepared_threshold_t), intent(in) :: threshold
       type(outcome_t), intent(in) :: outcome
       character(:), allocatable :: line
-      integer(int64) :: counts(3)
+      integer(int64) :: counts(4)
 
       line = '  '//counted(outcome%crossings, 'crossing')//'; '//integer_text(outcome%uncrossed)//' of '// &
              counted(threshold%traces%layout%scene_count, 'trace')//' without any'
@@ -271,7 +273,10 @@ contains
       if (counts(3) > 0_int64) call log%line('  at '//counted(counts(3), 'crossing')//' an end is that of a motion that does '// &
                                              'not repeat, to the width of a bracket, or it was lost (columns '// &
                                              'motion_end_below, motion_end_above)')
-      if (counts(1) > 0_int64 .and. scene%solver%starts > 1) &
+      if (counts(4) > 0_int64) call log%line('  '//integer_text(counts(4))//' of '//counted(outcome%uncrossed, 'trace')// &
+                                             ' without any have motions of another side beside those from rest, which other '// &
+                                             'starts lead to: from last_above to last_below')
+      if (sum(counts) > 0_int64 .and. scene%solver%starts > 1) &
          call log%line('  '//counted(scene%solver%starts, 'start')//' are no proof of others'' absence')
       if (outcome%failed > 0_int64) call log%line('  scenes that failed are a kind of their own: where they begin is a '// &
                                                   'crossing (columns status_below, status_above)')

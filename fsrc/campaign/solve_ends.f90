@@ -1,5 +1,5 @@
 !> Enters traces of which all is known: where asked for, the motions on both sides of their brackets are followed to their ends
-!> first, bracket by bracket on the threads of all ranks.
+!> first, and motions of another side are looked for where a trace has no bracket, row by row on the threads of all ranks.
 module solve_ends
    use campaign_progress, only: campaign_progress_t
    use errors, only: error_t
@@ -12,7 +12,7 @@ module solve_ends
    use signals, only: caught_signal
    use threshold_ends, only: end_numbers, find_ends, has_ends
    use threshold_outcome, only: add_traces, outcome_t, save_outcome
-   use threshold_search, only: bracket_t, brackets_of
+   use threshold_search, only: bracket_t, rows_of_traces
    use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_get_thread_num
    implicit none(type, external)
    private
@@ -50,7 +50,7 @@ contains
       do start = first, last, together
          end = min(last, start + together - 1_int64)
          if (allocated(brackets)) deallocate (brackets)
-         allocate (brackets, source=brackets_of(pack(outcome%points, outcome%points%trace <= end)))
+         allocate (brackets, source=rows_of_traces(pack(outcome%points, outcome%points%trace <= end)))
          call follow_brackets(scene, threshold, brackets, progress, log, ends, outcome%cut, error)
          if (outcome%cut) return
          call add_traces(scene, threshold, start, end, outcome, ends)
@@ -59,7 +59,7 @@ contains
       end do
    end subroutine end_traces
 
-   !> Ends of the motions of some brackets.
+   !> Ends of the motions of some brackets, and of traces that have none.
    subroutine follow_brackets(scene, threshold, brackets, progress, log, ends, cut, error)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold

@@ -1,6 +1,7 @@
 !> Where the motions on both sides of a crossing end. A bracket is where the motion from rest changes; motions that are on a side
 !> of the criterion may go on beyond it. Those that the starts of both ends lead to are followed: of the side below to larger
-!> values of the key, of the side above to smaller ones. Where branches overlap, either side is possible.
+!> values of the key, of the side above to smaller ones. Where branches overlap, either side is possible. In a trace without a
+!> bracket starts at both ends of the range and in its middle may lead to motions on another side: these are followed both ways.
 !>
 !> Motions that repeat are followed as branches. Where one ends, the motion that follows there may be on the same side, and is
 !> followed on; so is one that does not repeat, value by value, each from the state of the value before.
@@ -22,7 +23,7 @@ module threshold_ends
    use scene_types, only: method_newmark, scene_t
    use settled_motion, only: near_states
    use signals, only: must_stop
-   use threshold_search, only: bracket_t, point_t, side_unknown
+   use threshold_search, only: bracket_t, is_crossing, side_unknown
    implicit none(type, external)
    private
 
@@ -34,8 +35,15 @@ module threshold_ends
    real(dp), parameter :: push = 1.0e-3_dp
    !> Seed of the starts that are drawn
    integer, parameter :: start_seed = 1
+   !> No place of a search
+   integer, parameter :: nowhere = -1
 
-   !> A motion at an end of a bracket.
+   !> Places between which a motion that does not repeat was followed [-].
+   type :: walk_t
+      real(dp) :: from = 0.0_dp, to = 0.0_dp
+   end type walk_t
+
+   !> A motion that a start leads to.
    type :: seed_t
       real(dp) :: share = 0.0_dp
       type(judged_start_t) :: judged
@@ -60,7 +68,8 @@ contains
       end associate
    end function has_ends
 
-   !> Ends of the motions on both sides of a bracket. After a signal to stop they are of no use.
+   !> Ends of the motions on both sides of a bracket; of a trace without one, from end to end of its range, those of the motions on
+   !> another side. After a signal to stop they are of no use.
    subroutine find_ends(scene, threshold, bracket, family, ends, error)
       !> Checked base scene
       type(scene_t), intent(in) :: scene
@@ -72,22 +81,48 @@ contains
       real(dp), intent(out) :: ends(end_numbers)
       !> Set if there was no memory for the samples of a scene
       type(error_t), allocatable, intent(out) :: error
-      real(dp) :: values(size(threshold%traces%plan%positions))
+      real(dp) :: values(size(threshold%traces%plan%positions)), last(2), first_step
       type(seed_t), allocatable :: seeds(:)
+      integer :: places(2), codes(2), i
 
       ends = ieee_value(0.0_dp, ieee_quiet_nan)
       call scene_values(threshold%traces%plan, bracket%lower%trace, values)
       call family%begin(scene, threshold%axis, threshold%traces%plan%positions, values)
-      call find_seeds(scene, bracket, family, seeds)
-      call follow_all(family, bracket%lower, bracket%upper, 1, seeds, ends(1), ends(3))
-      call follow_all(family, bracket%upper, bracket%lower, -1, seeds, ends(2), ends(4))
+      places = [bracket%lower%place, bracket%upper%place]
+      ! Nothing was followed yet: to larger values below the range, to smaller ones above it.
+      last = [-1.0_dp, 2.0_dp]
+      codes = end_no_start
+      if (is_crossing(bracket)) then
+         call find_seeds(scene, places, 1, family, seeds)
+         first_step = family%share_of(places(2) - places(1))
+         call follow_all(family, bracket%lower%side, places(1), 1, first_step, seeds, last(1), codes(1))
+         call follow_all(family, bracket%upper%side, places(2), -1, first_step, seeds, last(2), codes(2))
+      else if (bracket%lower%side >= 0) then
+         ! Where starts from rest lead is known.
+         call find_seeds(scene, [places(1), sum(places)/2, places(2)], 2, family, seeds)
+         do i = 1, size(seeds)
+            associate (side => seeds(i)%judged%side)
+               if (side == bracket%lower%side .or. any(seeds(:i - 1)%judged%side == side)) cycle
+               call follow_all(family, side, nowhere, 1, family%scan_step(), seeds, last(1), codes(1))
+               call follow_all(family, side, nowhere, -1, family%scan_step(), seeds, last(2), codes(2))
+            end associate
+         end do
+      end if
+      do i = 1, 2
+         if (codes(i) == end_no_start) cycle
+         ends(i) = family%value_at(last(i))
+         ends(2 + i) = real(codes(i), dp)
+      end do
       if (allocated(family%error)) call move_alloc(family%error, error)
    end subroutine find_ends
 
-   !> Motions that the starts of both ends of a bracket lead to.
-   subroutine find_seeds(scene, bracket, family, seeds)
+   !> Motions that the starts of some places lead to.
+   subroutine find_seeds(scene, places, first_start, family, seeds)
       type(scene_t), intent(in) :: scene
-      type(bracket_t), intent(in) :: bracket
+      !> As of threshold_search
+      integer, intent(in) :: places(:)
+      !> First of the starts that are tried
+      integer, intent(in) :: first_start
       type(scene_family_t), intent(inout) :: family
       type(seed_t), allocatable, intent(out) :: seeds(:)
       type(problem_t) :: problem
@@ -96,17 +131,17 @@ contains
       type(judged_start_t), allocatable :: judged(:)
       real(dp), allocatable :: shares(:)
       real(dp) :: share
-      integer :: end, i
+      integer :: place, i
       logical :: is_scene
 
       allocate (states(0), shares(0))
-      do end = 1, 2
-         share = family%share_of(merge(bracket%lower%place, bracket%upper%place, end == 1))
+      do place = 1, size(places)
+         share = family%share_of(places(place))
          call family%problem_at(share, problem, is_scene)
          if (.not. is_scene) cycle
          starts = motion_starts(problem, start_count(problem, scene%solver), start_seed)
-         shares = [shares, spread(share, 1, size(starts))]
-         states = [states, (state_of_start(problem, starts(i)), i=1, size(starts))]
+         shares = [shares, spread(share, 1, size(starts) - first_start + 1)]
+         states = [states, (state_of_start(problem, starts(i)), i=first_start, size(starts))]
       end do
       judged = family%judge(shares, states)
       allocate (seeds(size(shares)))
@@ -115,55 +150,69 @@ contains
       end do
    end subroutine find_seeds
 
-   !> Follow all motions of the side of a point, and tell the one that comes farthest.
-   subroutine follow_all(family, own, other, direction, seeds, last, code)
+   !> Follow all motions of a side, and tell the one that comes farthest.
+   subroutine follow_all(family, side, own, direction, first_step, seeds, farthest, code)
       type(scene_family_t), intent(inout) :: family
-      !> End of the bracket whose side is followed, and the other one
-      type(point_t), intent(in) :: own
-      type(point_t), intent(in) :: other
+      !> Side of the criterion that is followed
+      integer, intent(in) :: side
+      !> Place of the end of the bracket that is on this side; nowhere: there is none
+      integer, intent(in) :: own
       !> 1: to larger values of the key; -1: to smaller ones
       integer, intent(in) :: direction
+      !> First step along the key [-]
+      real(dp), intent(in) :: first_step
       type(seed_t), intent(in) :: seeds(:)
-      !> Last value [unit of the key], and how the motion ends there; NaN where none was followed
-      real(dp), intent(inout) :: last
-      real(dp), intent(inout) :: code
+      !> Last place over the range [-], and how the motion ends there; unchanged where none comes farther
+      real(dp), intent(inout) :: farthest
+      integer, intent(inout) :: code
       type(branch_point_t), allocatable :: passed(:)
-      real(dp) :: share, farthest
+      type(walk_t), allocatable :: walks(:)
+      real(dp) :: share
       integer :: pass, i, ended
 
-      if (own%side == side_unknown .or. own%side < 0) return
-      call family%follow_side(own%side)
-      allocate (passed(0))
-      farthest = -real(direction, dp)
+      if (side == side_unknown .or. side < 0) return
+      call family%follow_side(side)
+      allocate (passed(0), walks(0))
       ! Those of its own end come first: the others are often on their branches.
       do pass = 1, 2
          do i = 1, size(seeds)
-            if (seeds(i)%judged%side /= own%side) cycle
+            if (seeds(i)%judged%side /= side) cycle
             if (is_at(seeds(i), own) .neqv. pass == 1) cycle
+            ! Two motions that do not repeat cannot be told apart.
+            if (seeds(i)%judged%period == 0 .and. any(is_between(walks%from, walks%to, seeds(i)%share))) cycle
             if (has_passed(family, seeds(i), direction, passed)) cycle
-            call follow_motion(family, seeds(i), direction, abs(family%share_of(other%place) - family%share_of(own%place)), &
-                               share, ended, passed)
+            call follow_motion(family, seeds(i), direction, first_step, share, ended, passed, walks)
             if (must_stop() .or. allocated(family%error)) return
             if (ended == end_no_start) cycle
-            if (real(direction, dp)*(share - farthest) > 0.0_dp .or. .not. code > 0.0_dp) then
+            if (real(direction, dp)*(share - farthest) > 0.0_dp) then
                farthest = share
-               last = family%value_at(share)
-               code = real(ended, dp)
+               code = ended
             end if
          end do
       end do
 
    contains
 
-      !> Whether a motion was found at an end of the bracket.
-      logical function is_at(seed, point)
+      !> Whether a motion was found at a place.
+      logical function is_at(seed, place)
          type(seed_t), intent(in) :: seed
-         type(point_t), intent(in) :: point
+         !> As of threshold_search
+         integer, intent(in) :: place
 
-         is_at = .not. abs(seed%share - family%share_of(point%place)) > 0.0_dp
+         is_at = .not. abs(seed%share - family%share_of(place)) > 0.0_dp
       end function is_at
 
    end subroutine follow_all
+
+   !> Whether a place is on a walk.
+   elemental logical function is_between(from, to, share)
+      real(dp), intent(in) :: from
+      real(dp), intent(in) :: to
+      !> [-]
+      real(dp), intent(in) :: share
+
+      is_between = (share - from)*(share - to) <= 0.0_dp
+   end function is_between
 
    !> Whether a motion is on a branch that was followed before.
    logical function has_passed(family, seed, direction, passed)
@@ -207,7 +256,7 @@ contains
    end function has_passed
 
    !> Follow a motion of the side that the family follows, from branch to branch.
-   subroutine follow_motion(family, seed, direction, first_step, share, code, passed)
+   subroutine follow_motion(family, seed, direction, first_step, share, code, passed, walks)
       type(scene_family_t), intent(inout) :: family
       type(seed_t), intent(in) :: seed
       integer, intent(in) :: direction
@@ -218,8 +267,11 @@ contains
       integer, intent(out) :: code
       !> Motions of the branches; those of this one are added
       type(branch_point_t), allocatable, intent(inout) :: passed(:)
+      !> Ways over which motions that do not repeat were followed; those of this one are added
+      type(walk_t), allocatable, intent(inout) :: walks(:)
       type(branch_end_t) :: branch
       type(judged_start_t) :: here
+      real(dp) :: before
       integer :: branches
       logical :: goes_on
 
@@ -242,7 +294,9 @@ contains
             call leave_branch(family, direction, branch%point, here, share, goes_on)
             if (.not. goes_on) return
          else
+            before = share
             call follow_values(family, direction, share, here, code)
+            walks = [walks, walk_t(before, share)]
             if (code /= end_lost) return
          end if
       end do

@@ -23,7 +23,7 @@ module threshold_outcome
    use scene_types, only: scene_t
    use motion_branch, only: end_bracketed
    use threshold_ends, only: end_numbers, has_ends
-   use threshold_search, only: bracket_t, brackets_of, is_verified, new_point, point_t
+   use threshold_search, only: bracket_t, is_crossing, is_verified, new_point, point_t, rows_of_traces
    use varied_keys, only: varied_name
    implicit none(type, external)
    private
@@ -82,50 +82,39 @@ contains
       integer(int64), intent(in) :: first
       integer(int64), intent(in) :: last
       type(outcome_t), intent(inout) :: outcome
-      !> Where the motions on both sides of their brackets end, bracket by bracket, as of threshold_ends; absent: not known
+      !> Where the motions on both sides of each row end, as of threshold_ends; absent: not known
       real(dp), intent(in), optional :: ends(:, :)
       type(point_t), allocatable :: points(:)
       type(bracket_t), allocatable :: brackets(:)
-      real(dp) :: unknown(end_numbers)
+      real(dp) :: motion_ends(end_numbers)
       real(dp), allocatable :: rows(:, :)
-      integer(int64) :: trace
-      integer :: i, k, start, end, crossing
+      integer :: k, crossing
 
-      points = pack(outcome%points, outcome%points%trace <= last)
+      points = pack(outcome%points, outcome%points%trace >= first .and. outcome%points%trace <= last)
       outcome%points = pack(outcome%points, outcome%points%trace > last)
-      allocate (brackets, source=brackets_of(points))
-      allocate (rows(size(outcome%rows, 1), size(brackets) + last - first + 1_int64))
-      unknown = ieee_value(0.0_dp, ieee_quiet_nan)
-      i = 0
-      k = 0
-      end = 0
-      do trace = first, last
-         start = end + 1
-         end = start + count(points(start:)%trace == trace) - 1
-         crossing = 0
-         do while (i < size(brackets))
-            if (brackets(i + 1)%lower%trace /= trace) exit
-            i = i + 1
-            k = k + 1
-            crossing = crossing + 1
-            if (present(ends)) then
-               rows(:, k) = row_of(scene, threshold, crossing, brackets(i)%lower, brackets(i)%upper, ends(:, i))
+      allocate (brackets, source=rows_of_traces(points))
+      allocate (rows(size(outcome%rows, 1), size(brackets)))
+      motion_ends = ieee_value(0.0_dp, ieee_quiet_nan)
+      crossing = 0
+      do k = 1, size(brackets)
+         associate (bracket => brackets(k))
+            if (present(ends)) motion_ends = ends(:, k)
+            if (k > 1) crossing = merge(crossing, 0, bracket%lower%trace == brackets(max(1, k - 1))%lower%trace)
+            if (is_crossing(bracket)) then
+               crossing = crossing + 1
+               outcome%crossings = outcome%crossings + 1_int64
+               if (.not. all(is_verified([bracket%lower, bracket%upper]))) outcome%uncertain = outcome%uncertain + 1_int64
+               if (bracket%upper%place - bracket%lower%place > 1) outcome%wide = outcome%wide + 1_int64
             else
-               rows(:, k) = row_of(scene, threshold, crossing, brackets(i)%lower, brackets(i)%upper, unknown)
+               outcome%uncrossed = outcome%uncrossed + 1_int64
             end if
-            if (.not. all(is_verified([brackets(i)%lower, brackets(i)%upper]))) outcome%uncertain = outcome%uncertain + 1_int64
-            if (brackets(i)%upper%place - brackets(i)%lower%place > 1) outcome%wide = outcome%wide + 1_int64
-         end do
-         if (crossing > 0) cycle
-         k = k + 1
-         rows(:, k) = row_of(scene, threshold, crossing, points(start), points(end), unknown)
-         outcome%uncrossed = outcome%uncrossed + 1_int64
+            rows(:, k) = row_of(scene, threshold, crossing, bracket%lower, bracket%upper, motion_ends)
+         end associate
       end do
-      outcome%crossings = outcome%crossings + size(brackets, kind=int64)
       outcome%solved = outcome%solved + scenes_of(points)
       outcome%failed = outcome%failed + count(.not. is_success(points%status), kind=int64)
       outcome%traces = last - threshold%traces%first + 1_int64
-      outcome%rows = reshape([outcome%rows, rows(:, :k)], [size(rows, 1), size(outcome%rows, 2) + k])
+      outcome%rows = reshape([outcome%rows, rows], [size(rows, 1), size(outcome%rows, 2) + size(rows, 2)])
    end subroutine add_traces
 
    !> Row of a bracket, or of a trace without one.
@@ -154,12 +143,13 @@ contains
    end function row_of
 
    !> How many crossings have motions that were followed; at how many of them either side is possible, since motions of a side go on
-   !> beyond the bracket; and at how many an end is known to a bracket only, or not at all.
+   !> beyond the bracket; at how many an end is known to a bracket only, or not at all; and how many traces without a crossing have
+   !> motions of another side.
    pure function end_counts(scene, threshold, outcome) result(counts)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
       type(outcome_t), intent(in) :: outcome
-      integer(int64) :: counts(3)
+      integer(int64) :: counts(4)
       integer :: lower, last, crossing
 
       counts = 0_int64
@@ -169,6 +159,10 @@ contains
       do crossing = 1, size(outcome%rows, 2)
          associate (row => outcome%rows(:, crossing))
             associate (below => row(last + 1), above => row(last + 2), kinds => row(last + 3:))
+               if (.not. row(lower - 1) > 0.0_dp) then
+                  if (.not. ieee_is_nan(below)) counts(4) = counts(4) + 1_int64
+                  cycle
+               end if
                if (reaches(below, row(lower)) .or. reaches(-above, -row(lower + 1))) counts(1) = counts(1) + 1_int64
                if (reaches(below, nearest(row(lower + 1), 1.0_dp)) .or. reaches(-above, nearest(-row(lower), 1.0_dp))) &
                   counts(2) = counts(2) + 1_int64

@@ -32,14 +32,14 @@ module threshold_search
       real(dp) :: verified = 0.0_dp
    end type point_t
 
-   !> Two points of a trace that differ.
+   !> Two points of a trace that differ, or the ends of a trace that has none such.
    type, public :: bracket_t
       type(point_t) :: lower
       type(point_t) :: upper
    end type bracket_t
 
    public :: finest_axis, scan_places, known_side, new_point, merged_points, missing_scan, missing_middles, untested_ends, &
-             brackets_of, is_verified
+             brackets_of, rows_of_traces, is_crossing, is_verified
 
 contains
 
@@ -327,5 +327,47 @@ contains
       end do
       brackets = found(:count)
    end function brackets_of
+
+   !> Whether the ends of a bracket are on different sides.
+   elemental logical function is_crossing(bracket)
+      type(bracket_t), intent(in) :: bracket
+
+      is_crossing = bracket%lower%side /= bracket%upper%side
+   end function is_crossing
+
+   !> All brackets, and in their order for each trace without one a bracket from end to end of its range, whose sides are alike.
+   pure function rows_of_traces(points) result(rows)
+      !> By rising traces and places, all of each trace
+      type(point_t), intent(in) :: points(:)
+      type(bracket_t), allocatable :: rows(:)
+      type(bracket_t), allocatable :: brackets(:), found(:)
+      integer :: start, end, i, count
+
+      allocate (brackets, source=brackets_of(points))
+      allocate (found(size(brackets) + size(points)))
+      count = 0
+      i = 1
+      end = 0
+      do while (end < size(points))
+         start = end + 1
+         end = start
+         do while (end < size(points))
+            if (points(end + 1)%trace /= points(start)%trace) exit
+            end = end + 1
+         end do
+         count = count + 1
+         found(count) = bracket_t(points(start), points(end))
+         if (i > size(brackets)) cycle
+         if (brackets(i)%lower%trace /= points(start)%trace) cycle
+         count = count - 1
+         do while (i <= size(brackets))
+            if (brackets(i)%lower%trace /= points(start)%trace) exit
+            count = count + 1
+            found(count) = brackets(i)
+            i = i + 1
+         end do
+      end do
+      rows = found(:count)
+   end function rows_of_traces
 
 end module threshold_search

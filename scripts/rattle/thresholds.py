@@ -118,6 +118,12 @@ class Thresholds:
         return crossed & beyond & (last_above < last_below)
 
     @property
+    def another_side(self) -> np.ndarray:
+        """Traces without a threshold with motions on another side, from one of the ends to the other."""
+        last_above, last_below = self.ends
+        return (self.column("crossing") == 0) & (last_above <= last_below)
+
+    @property
     def uncertain(self) -> np.ndarray:
         """Crossings with a side that is not verified, where that was asked for."""
         if "verified_below" not in self.result:

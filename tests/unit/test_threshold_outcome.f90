@@ -15,7 +15,7 @@ module test_threshold_outcome
    use threshold_cases, only: case_points, creep, crossings, failed, first_force, idle, last_force, traces, new_outcome, prepare, &
                               quiet, solved, speeds, steps, uncertain, uncrossed, wide
    use threshold_outcome, only: add_traces, end_counts, failed_scenes, load_outcome, outcome_t, save_outcome, solved_scenes
-   use threshold_search, only: point_t
+   use threshold_search, only: point_t, rows_of_traces
    implicit none(type, external)
    private
 
@@ -228,35 +228,37 @@ contains
       call check_same(checks, outcome%rows, whole%rows(:, 5:), 'a part')
    end subroutine test_part
 
-   !> Where motions end stands in the rows of crossings; and it is counted where either side is possible, beyond a bracket, and where
+   !> Where motions end stands in the rows of crossings and of traces without one; and it is counted where either side is possible, beyond a bracket, and where
    !> an end is not sure. With one start there are no such columns.
    subroutine test_ends(checks)
       class(check_list_t), intent(inout) :: checks
       type(scene_t) :: scene
       type(prepared_threshold_t) :: threshold
       type(outcome_t) :: outcome
-      real(dp) :: ends(4, 3)
+      real(dp), allocatable :: ends(:, :)
 
       call prepare(checks, scene, threshold, ' /')
       call new_outcome(scene, threshold, outcome)
-      ! From 85 to 95 N, from 85 to 115 N, from 235 to 245 N
+      allocate (ends(4, size(rows_of_traces(outcome%points))), source=ieee_value(0.0_dp, ieee_quiet_nan))
+      ! From 85 to 95 N, from 85 to 115 N, from 235 to 245 N, and traces without a crossing
       ends(:, 1) = [200.0_dp, 20.0_dp, 1.0_dp, 2.0_dp]
       ends(:, 2) = [90.0_dp, 90.0_dp, 4.0_dp, 4.0_dp]
       ends(:, 3) = [260.0_dp, ieee_value(0.0_dp, ieee_quiet_nan), 6.0_dp, ieee_value(0.0_dp, ieee_quiet_nan)]
+      ends(:, 4) = [170.0_dp, 150.0_dp, 1.0_dp, 6.0_dp]
       call add_traces(scene, threshold, 1_int64, traces, outcome, ends)
-      call checks%check(all(same_bits(outcome%rows(13:, :3), ends) .or. ieee_is_nan(ends)), &
-                        'ends of the motions of each crossing')
-      call checks%check(all(ieee_is_nan(outcome%rows(13:, 4:))), 'no ends where there is no crossing')
-      call checks%check(all(end_counts(scene, threshold, outcome) == [3, 2, 1]), 'counts of ends')
+      call checks%check(all(same_bits(outcome%rows(13:, :), ends) .or. ieee_is_nan(ends)), 'ends of the motions of each row')
+      call checks%check(all(ieee_is_nan(outcome%rows(13:, 5:))), 'no ends where nothing was followed')
+      call checks%check(all(end_counts(scene, threshold, outcome) == [3, 2, 1, 1]), 'counts of ends')
       ends(1, 1) = 94.0_dp
       ends(2, 1) = 86.0_dp
+      ends(:, 4) = ieee_value(0.0_dp, ieee_quiet_nan)
       call new_outcome(scene, threshold, outcome)
       call add_traces(scene, threshold, 1_int64, traces, outcome, ends)
-      call checks%check(all(end_counts(scene, threshold, outcome) == [3, 1, 1]), 'ends within a bracket are one change')
+      call checks%check(all(end_counts(scene, threshold, outcome) == [3, 1, 1, 0]), 'ends within a bracket are one change')
       ends(:, 3) = [ends(2, 3), 240.0_dp, ends(4, 3), 1.0_dp]
       call new_outcome(scene, threshold, outcome)
       call add_traces(scene, threshold, 1_int64, traces, outcome, ends)
-      call checks%check(all(end_counts(scene, threshold, outcome) == [3, 0, 0]), 'motions of the side above alone')
+      call checks%check(all(end_counts(scene, threshold, outcome) == [3, 0, 0, 0]), 'motions of the side above alone')
       call prepare(checks, scene, threshold, ' /'//line_feed//'&solver starts = 1 /')
       call new_outcome(scene, threshold, outcome)
       call add_traces(scene, threshold, 1_int64, traces, outcome)

@@ -377,15 +377,18 @@ def groups(rattle: Path, monkeypatch) -> dict:
 ENDS = ("last_below", "last_above", "motion_end_below", "motion_end_above")
 
 
-def written_with_ends(path: Path, ends: list[list[float]], lower: list[float]):
-    """One crossing on each trace, at speeds of 1, 2, ... m/s, with the ends of its motions."""
+def written_with_ends(
+    path: Path, ends: list[list[float]], lower: list[float], crossings: tuple[float, ...] | None = None
+):
+    """One crossing on each trace, or none, at speeds of 1, 2, ... m/s, with the ends of its motions."""
+    crossings = crossings or (1.0,) * len(lower)
     names = ["trace", "kinematics.entrainment_speed", "crossing", "lower", "upper", "width"]
     names += ["rattle_class_below", "rattle_class_above", "status_below", "status_above", *SIDES, *ENDS]
     newtons = ("lower", "upper", "width", *ENDS[:2])
     columns = [(name, "N" if name in newtons else "m/s" if name.startswith("kin") else "-") for name in names]
     rows = [
-        [float(place), float(place), 1.0, value, value + 2.0, 2.0, 1.0, 3.0, 1.0, 1.0, 1.0, 1.0, *end]
-        for place, (value, end) in enumerate(zip(lower, ends, strict=True), 1)
+        [float(place), float(place), crossing, value, value + 2.0, 2.0, 1.0, 3.0, 1.0, 1.0, 1.0, 1.0, *end]
+        for place, (crossing, value, end) in enumerate(zip(crossings, lower, ends, strict=True), 1)
     ]
     write_result(path, columns, rows, input_text=threshold_input())
     return package.read(path)
@@ -404,6 +407,18 @@ def test_between_the_ends_of_both_sides_either_is_possible(tmp_path):
     assert "either is possible (2)" in drawn.legend_words(made)
     plain = written_with_ends(tmp_path / "edge.rattle", ends[2:], [40.0] * 2)
     assert not any("either" in words for words in drawn.legend_words(figure(plain)))
+
+
+def test_the_report_tells_of_another_side_where_no_threshold_is(tmp_path):
+    ends = [[60.0, 20.0, 1.0, 1.0], [70.0, 30.0, 1.0, 6.0], [NAN] * 4]
+    path = tmp_path / "edge.rattle"
+    for crossings, told in (((1.0, 0.0, 0.0), 1), ((1.0, 1.0, 0.0), 0)):
+        result = written_with_ends(path, ends, [40.0] * 3, crossings)
+        assert thresholds(result).another_side.sum() == told
+        done = call_script("report.py", path, "--output", tmp_path / "edge.html", "--overwrite")
+        assert done.returncode == 0, done.stderr
+        words = read_page(tmp_path / "edge.html").words
+        assert ("1 trace without a threshold has motions on another side" in words) == bool(told)
 
 
 def test_a_jump_of_a_curve_is_no_line(tmp_path):

@@ -515,7 +515,9 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
     wide = told["crossings_wide"]
     starts, unsure = 3, told["crossings_end_unsure"]  # three by default
     followed = told["crossings_followed"]
-    assert followed == np.isfinite(rows["last_below"]).sum()
+    assert followed == np.isfinite(rows["last_below"][crossed]).sum()
+    others = int(np.isfinite(rows["last_below"][~crossed]).sum())
+    assert told["traces_with_another_side"] == others
     places = given["count"]
     while places < grid / lines:
         places = 2 * places - 1
@@ -530,7 +532,8 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
             "them",
             "  the ends of a crossing go apart again until both are verified",
             f"  then the motions of both sides, from {counted(starts, 'start')}, are followed along "
-            f"{given['key']} to where they end",
+            f"{given['key']} to where they end; in a trace without a crossing these starts are tried at both "
+            "ends and in the middle",
             f"  {told['scenes']} of {told['scenes']} scenes, {ANY} a second, {told['scenes_failed']} failed",
             f"  {counted(told['crossings'], 'crossing')}; {without} of {counted(lines, 'trace')} without "
             f"any; at {counted(doubts, 'crossing')} a side is not verified",
@@ -543,6 +546,10 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
             f"  at {counted(unsure, 'crossing')} an end is that of a motion that does not repeat, to "
             "the width of a bracket, or it was lost (columns motion_end_below, motion_end_above)"
             if unsure
+            else None,
+            f"  {others} of {counted(without, 'trace')} without any have motions of another side beside "
+            "those from rest, which other starts lead to: from last_above to last_below"
+            if others
             else None,
             f"  {counted(starts, 'start')} are no proof of others' absence",
             f"  {told['scenes']} scenes; a grid as fine has {int(grid)}, {short(grid / told['scenes'], 3)} "

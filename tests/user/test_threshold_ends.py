@@ -131,6 +131,54 @@ def test_scenes_alone_have_both_sides_between_the_ends_and_one_beyond(found, alo
         assert sorted(map(int, told)) == sides
 
 
+def test_a_trace_without_a_threshold_tells_of_another_side(found, alone, tmp_path: Path) -> None:
+    """From rest the pair changes at 14.63 N; short of it and beyond it other starts find the other side.
+
+    Its motions end at the folds that a trace with the threshold has; scenes alone have both sides there.
+    """
+    crossed = found().frame().iloc[0]
+    starts = ("--set", "solver.starts=29")
+    low = found(*starts, threshold={"last": "14.62"}, name="low").frame().iloc[0]
+    high = found(*starts, threshold={"first": "14.637"}, name="high").frame().iloc[0]
+    for row, ends, words, side in (
+        (low, (crossed["last_above"], 14.62), ("fold", "end_of_range"), 0),
+        (high, (14.637, crossed["last_below"]), ("end_of_range", "fold"), 1),
+    ):
+        assert (row["crossing"], row["double_sided_below"], row["double_sided_above"]) == (0, side, side)
+        np.testing.assert_allclose([row["last_above"], row["last_below"]], ends, rtol=1e-6)
+        assert (row["motion_end_above_word"], row["motion_end_below_word"]) == words
+        sides = sides_alone(alone, 0.5 * sum(ends), tmp_path)
+        assert sides[0] == side and 1 - side in sides
+    assert (
+        "1 of 1 trace without any have motions of another side"
+        in (tmp_path / "results" / "low.log").read_text()
+    )
+    assert summary_of(tmp_path / "results" / "low.summary.nml")["traces_with_another_side"] == 1
+
+
+def test_a_trace_with_one_side_has_no_ends(found, alone, tmp_path: Path) -> None:
+    """At both ends of the range and in its middle 29 starts of a scene alone lead to one side."""
+    row = found("--set", "solver.starts=29", threshold={"last": "12.0"}).frame().iloc[0]
+    assert row["crossing"] == 0 and np.isnan([row["last_below"], row["last_above"]]).all()
+    for amplitude in (2.0, 7.0, 12.0):
+        assert set(sides_alone(alone, amplitude, tmp_path)) == {0}
+    assert summary_of(tmp_path / "results" / "scene.summary.nml")["traces_with_another_side"] == 0
+
+
+def sides_alone(alone, amplitude: float, folder: Path) -> list[int]:
+    """Sides of all motions of a scene from 29 starts, each solved again alone; that from rest first."""
+    alone(*set_to(load__force_amplitude=float(amplitude), solver__starts=29))
+    motions = package.read(folder / "results" / "alone.rattle").motions.frame()
+    starts = [{}] + [
+        {"film__initial_film": motion.film, "film__initial_velocity": motion.velocity}
+        for motion in motions.itertuples()
+    ]
+    return [
+        int(alone(*set_to(load__force_amplitude=float(amplitude), solver__starts=1, **start))["double_sided"])
+        for start in starts
+    ]
+
+
 def test_a_motion_that_passes_a_level_smoothly_ends_there(found, alone) -> None:
     """Both ends are within the bracket and the same, and a scene alone has the level there."""
     level = {"criterion": "'acceleration_rms'", "level": "10.0"}

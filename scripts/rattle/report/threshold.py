@@ -78,6 +78,10 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
             if many
             else "Followed along the key from their starts, the motions of both sides end at the thresholds."
         )
+    if found.another_side.any():
+        many = int(found.another_side.sum())
+        having = "trace without a threshold has" if many == 1 else "traces without a threshold have"
+        yield f"{many} {having} motions on another side, from other starts: from last_above to last_below."
     if "verified_below" in found.result and crossed.any():
         sure = int(crossed.sum() - found.uncertain.sum())
         yield (
