@@ -27,7 +27,7 @@ def main() -> int | None:
     outputs.check(places, overwrite=options.overwrite, inputs=options.results)
     from rattle.report import report  # needs the kernels, and what is missing of them has a sentence here
 
-    text = command.readable(report(options.results))
+    text = command.readable(report(options.results, brief=options.brief))
     outputs.write([(page, outputs.text_writer(text))], overwrite=options.overwrite, inputs=options.results)
     print(page)
     return print_page(page, printed, options) if printed else None
@@ -93,6 +93,7 @@ def parse_options() -> argparse.Namespace:
         metavar="PLACE",
         help="also print the page, by a browser found here, as FILE.pdf or into a folder",
     )
+    parser.add_argument("--brief", action="store_true", help="leave the appendix out of what is printed")
     outputs.add_option(parser)
     return command.parse(parser)
 

@@ -61,6 +61,10 @@ contains
       type(log_t) :: log
       type(result_reader_t) :: reader
       character(:), allocatable :: told, summary
+      character(32), parameter :: names(16) = [character(32) :: 'trace', 'kinematics.entrainment_speed', 'crossing', 'lower', &
+                                                 'upper', 'width', 'rattle_class_below', 'rattle_class_above', 'status_below', &
+                                                 'status_above', 'verified_below', 'verified_above', 'last_below', &
+                                                 'last_above', 'motion_end_below', 'motion_end_above']
       real(dp), allocatable :: rows(:, :)
       integer :: exit_code
 
@@ -109,9 +113,8 @@ contains
       if (all(shape(rows) == shape(whole%rows))) &
          call checks%check(all(same_bits(rows, whole%rows) .or. (ieee_is_nan(rows) .and. ieee_is_nan(whole%rows))), &
                            'rows of the outcome')
-      call checks%check(all(reader%names == [character(32) :: 'trace', 'kinematics.entrainment_speed', 'crossing', 'lower', &
-                                             'upper', 'width', 'rattle_class_below', 'rattle_class_above', 'status_below', &
-                                             'status_above', 'verified_below', 'verified_above']), 'names of the columns')
+      call checks%check(size(reader%names) == size(names), 'as many columns')
+      if (size(reader%names) == size(names)) call checks%check(all(reader%names == names), 'names of the columns')
       call clear(scene)
 
    contains

@@ -46,8 +46,8 @@ FILM_CAPTIONS = {
 }
 
 
-def report(paths: Sequence[Path]) -> str:
-    """The page on all results, in the order given."""
+def report(paths: Sequence[Path], *, brief: bool = False) -> str:
+    """The page on all results, in the order given; a brief one prints without its appendix."""
     # What the table of all motions of a scene tells, the part on the scene does.
     paths = [path for path in paths if not path.name.endswith(MOTIONS_ENDING)] or paths
     results = [opened(path) for path in paths]
@@ -56,7 +56,7 @@ def report(paths: Sequence[Path]) -> str:
     if len(boxes) == 1 and len(next(iter(boxes.values()))["gears"]) == len(names):
         name, box = next(iter(boxes.items()))
         title = f"Rattle of the gear pairs of {name}"
-        return page.document(title, [page.heading(1, title), *page_of_box(results, names, box)])
+        return page.document(title, [page.heading(1, title), *page_of_box(results, names, box)], brief=brief)
     title = f"Rattle of {names[0]}" if len(names) == 1 else f"Rattle of {len(names)} results"
     what = OF_THRESHOLDS if {result.task for result in results} == {"threshold"} else OF_MOTIONS
     body = [page.heading(1, title), page.paragraph(ABOUT.format(what=what), "lead")]
@@ -66,7 +66,7 @@ def report(paths: Sequence[Path]) -> str:
         if len(results) > 1:
             body.append(page.heading(1, name, f"result-{place}"))
         body += part(result, name)
-    return page.document(title, body)
+    return page.document(title, body, brief=brief)
 
 
 def page_of_box(results: Sequence[ResultFile], names: Sequence[str], box: Summary) -> list[str]:

@@ -112,6 +112,7 @@ figcaption { font-size: .9rem; max-width: 46rem; margin-top: .3rem; }
   figure { display: inline-block; width: 86mm; margin: .3rem 3mm .3rem 0; vertical-align: top; }
   figcaption { font-size: 8pt; }
   h2 { margin-top: 1.2rem; }
+  .brief .appendix { display: none; }
   .appendix { break-before: page; columns: 2; column-gap: 7mm; font-size: 6.5pt; line-height: 1.3; }
   .appendix .appendix { break-before: auto; columns: auto; margin-top: .6rem; }
   .appendix :is(table, table.dense, figcaption, .note, .class, code) { font-size: 6.5pt; }
@@ -134,14 +135,13 @@ figcaption { font-size: .9rem; max-width: 46rem; margin-top: .3rem; }
 """
 
 
-def document(title: str, body: Sequence[str]) -> str:
-    """The whole page."""
+def document(title: str, body: Sequence[str], *, brief: bool = False) -> str:
+    """The whole page; a brief one prints without its appendix."""
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f"<title>{escape(title)}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n"
-        + "\n".join(body)
-        + "\n</body>\n</html>\n"
+        f"<title>{escape(title)}</title>\n<style>{STYLE}</style>\n</head>\n"
+        f"<body{_kind('brief' if brief else '')}>\n" + "\n".join(body) + "\n</body>\n</html>\n"
     )
 
 
