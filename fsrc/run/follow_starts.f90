@@ -48,6 +48,8 @@ module follow_starts
    !> Distance between two periods, relative to the film, from which on Newton's method is tried, and by how much it has to fall
    !> before it is tried again [-].
    real(dp), parameter :: first_try = 0.005_dp, next_try = 0.1_dp
+   !> The same distance of a start that has had all its periods: it may settle slowly [-].
+   real(dp), parameter :: last_try = 0.05_dp
    !> Periods after which a motion that was started again by film and velocity has to be itself.
    integer, parameter :: restart_periods = 40
    !> Seed of the starts that are drawn.
@@ -284,6 +286,10 @@ contains
          end do
          if (first > 0 .and. .not. (allocated(irregular) .or. none_is_irregular)) then
             if (followers%motion(first) == 0 .and. .not. followers%failed(first) .and. followers%periods(first) >= most) then
+               ! What settles slowly is near a motion that repeats without its periods being near each other.
+               call look_for_repetition(scene, judged, first, followers, settled, error, last_try)
+               if (allocated(error) .or. must_stop()) return
+               if (followers%motion(first) > 0) cycle
                call judge_unsettled(scene, judged, followers%states(first), settled, none_is_irregular, error)
                if (allocated(error) .or. must_stop()) return
                if (.not. none_is_irregular) irregular = followers%history(:, compared_after + 1:followers%periods(first), first)
@@ -374,7 +380,7 @@ contains
    end subroutine go_on
 
    !> Where the periods of a start come near each other, find the motion that it settles on.
-   subroutine look_for_repetition(scene, judged, place, followers, settled, error)
+   subroutine look_for_repetition(scene, judged, place, followers, settled, error, within)
       type(scene_t), intent(in) :: scene
       type(judged_scene_t), intent(inout) :: judged
       !> Which start
@@ -383,17 +389,21 @@ contains
       !> Motions that are known; another one is added
       type(settled_motion_t), allocatable, intent(inout) :: settled(:)
       type(error_t), allocatable, intent(out) :: error
+      !> Distance of its periods up to which one is looked for, whatever was tried; absent: as they come near each other [-]
+      real(dp), intent(in), optional :: within
       type(periodic_orbit_t) :: orbit
       type(told_motion_t) :: told
       type(settled_motion_t) :: one
       type(ending_t) :: here
-      real(dp) :: distance
+      real(dp) :: distance, limit
       integer :: i
 
       if (followers%periods(place) <= longest_period) return
       associate (problem => judged%resolved%problem, past => followers%past(:, :, place))
          distance = distance_of_periods(problem, past)
-         if (distance > first_try .or. distance > next_try*followers%tried(place)) return
+         limit = min(first_try, next_try*followers%tried(place))
+         if (present(within)) limit = within
+         if (distance > limit) return
          followers%tried(place) = distance
          here%numbers = followers%states(place)%numbers
          orbit = nearby_orbit(problem, here)
