@@ -25,42 +25,38 @@ KNOW_LAWS = {
     "fsrc/run/scene_report.f90",
 }
 
-# The only files below problem that name flanks or springs, by the reason why. None is added; one that no
-# longer names them leaves the list.
+# The only files below problem that name flanks or springs, by the equations that they hold. None is added; one that
+# no longer names them leaves the list.
 KNOW_FLANKS = {
-    "series and implicit steps, each with the equations of its flanks and springs": (
-        "motion/collocation_newton",
-        "motion/elastic_equations",
-        "motion/elastic_step",
-        "motion/elastic_trial",
+    "Taylor series: what each law expands differs by its flanks and springs, as do the ends that are checked": (
         "motion/film_series",
-        "motion/inner_equations",
         "motion/lane_advance",
-        "motion/lane_integration",
         "motion/many_motions",
-        "motion/nodal_engine",
-        "motion/nodal_profiles",
-        "motion/nodal_state",
-        "motion/nodal_step",
-        "motion/nodal_tangent",
-        "orbit/nodal_orbit",
         "motion/taylor_iso_viscous",
         "motion/taylor_piezo_viscous",
         "motion/taylor_reynolds_piezo",
         "motion/taylor_rupture",
         "motion/taylor_springs",
     ),
-    "how a state stands in a lane, whose numbers the loops over lanes take by name": (
-        "motion/known_motions",
-        "motion/lane_block",
-        "motion/lane_repetition",
-        "motion/lane_sampling",
-        "motion/lane_state",
-        "motion/newmark_engine",
-        "motion/step_nodes",
+    "implicit steps: residuals with films of both flanks, and with the springs behind them": (
+        "motion/collocation_newton",
+        "motion/elastic_equations",
+        "motion/elastic_step",
+        "motion/elastic_trial",
+        "motion/inner_equations",
     ),
-    "where other motions begin": ("orbit/motion_start",),
-    "what errors of steps mean for the acceleration": ("run/resolved_scene",),
+    "steps of films in nodes: each flank has its nodes, its gap and its deflection": (
+        "motion/nodal_engine",
+        "motion/nodal_profiles",
+        "motion/nodal_state",
+        "motion/nodal_step",
+        "motion/nodal_tangent",
+        "orbit/nodal_orbit",
+    ),
+    "rows of a block: what series and implicit steps take of a lane, and which number of a state each row is": (
+        "motion/lane_block",
+        "motion/lane_state",
+    ),
 }
 FLANKS = re.compile(
     r"flank(?!_contact|_elasticity)|coast|_drive\b|drive_|spring|compression|compliance|elastic_teeth",

@@ -1,11 +1,11 @@
 !> All motions of the scenes of a batch that are looked for: from the starts of each scene, and on a grid from the motions of its
 !> neighbours, in rounds until no scene lacks a motion that a neighbour has.
 module handed_motions
-   use engine, only: motion_state_t, request_t
+   use engine, only: motion_state_t, request_t, state_of_start
    use errors, only: error_t
    use grid_blocks, only: neighbours_of
    use kinds, only: dp, int64
-   use motion_start, only: motion_start_t, motion_starts, one_start_reason, several_starts, state_of_start
+   use motion_start, only: motion_start_t, motion_starts, one_start_reason, several_starts
    use rattle_class, only: class_irregular, class_irregular_so_far
    use resolved_scene, only: resolved_scene_t
    use row_motions, only: are_alike, handed_state, row_motions_t, solve_trials, trial_t

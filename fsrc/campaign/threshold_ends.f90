@@ -7,13 +7,13 @@
 !> followed on; so is one that does not repeat, value by value, each from the state of the value before.
 module threshold_ends
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use engine, only: motion_state_t
+   use engine, only: motion_state_t, state_of_start
    use errors, only: error_t
    use kinds, only: dp
    use known_motions, only: are_near, known_motions_t
    use motion_branch, only: branch_end_t, branch_point_t, end_bracketed, end_lost, end_no_start, end_of_kind, end_of_range, &
                             follow_branch, point_at
-   use motion_start, only: motion_start_t, motion_starts, start_count, state_of_start
+   use motion_start, only: motion_start_t, motion_starts, start_count
    use prepared_threshold, only: prepared_threshold_t
    use problem, only: problem_t
    use quantities, only: needs_orbit, needs_starts, needs_verification, needs_verified_impacts, part_cost, part_scene, &

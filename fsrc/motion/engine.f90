@@ -5,6 +5,7 @@ module engine
    use errors, only: error_t
    use kinds, only: dp, int64
    use carried_loads, only: initial_state
+   use motion_start, only: motion_start_t
    use problem, only: problem_t
    use repetition, only: longest_orbit, orbit_watch_t
    use scene_status, only: status_complete, status_interrupted, status_time_limit
@@ -160,7 +161,7 @@ module engine
       end subroutine watch_period
    end interface
 
-   public :: start_of, asks_for_same, status_of_stop, last_search_period, reserved_periods
+   public :: start_of, state_of_start, asks_for_same, status_of_stop, last_search_period, reserved_periods
 
 contains
 
@@ -180,6 +181,18 @@ contains
 
       start_of = motion_state_t(numbers=initial_state(problem))
    end function start_of
+
+   !> State of a motion that starts elsewhere; contacts with numbers of their own have stood still for long.
+   pure type(motion_state_t) function state_of_start(problem, start) result(state)
+      type(problem_t), intent(in) :: problem
+      type(motion_start_t), intent(in) :: start
+      type(problem_t) :: moved
+
+      moved = problem
+      moved%initial_film = start%film
+      moved%initial_velocity = start%velocity
+      state = start_of(moved)
+   end function state_of_start
 
    !> Whether two requests are the same for motions that are solved side by side.
    elemental logical function asks_for_same(one, other)

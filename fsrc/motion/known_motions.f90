@@ -3,7 +3,7 @@
 module known_motions
    use irregular_states, only: are_of_one_motion, compared_periods
    use kinds, only: dp
-   use problem, only: compression_count, of_drive_compression, of_film, of_velocity, problem_t
+   use problem, only: moving_numbers, of_velocity, problem_t
    implicit none(type, external)
    private
 
@@ -69,7 +69,7 @@ contains
       joined = 0
    end function joined_irregular
 
-   !> Whether two states count as one by film, velocity and compressions; what films have behind these follows them.
+   !> Whether two states count as one by how gear and teeth stand and move; states of films follow these.
    pure logical function are_near(problem, known, one, other)
       !> What moves
       type(problem_t), intent(in) :: problem
@@ -78,12 +78,11 @@ contains
       !> Numbers of the states
       real(dp), intent(in) :: one(:)
       real(dp), intent(in) :: other(:)
-      integer :: last
+      real(dp) :: near(moving_numbers(problem))
 
-      last = of_velocity + compression_count(problem)
-      are_near = abs(one(of_velocity) - other(of_velocity)) <= known%near_velocity .and. &
-                 abs(one(of_film) - other(of_film)) <= known%near_film .and. &
-                 all(abs(one(of_drive_compression:last) - other(of_drive_compression:last)) <= known%near_film)
+      near = known%near_film
+      near(of_velocity) = known%near_velocity
+      are_near = all(abs(one(:size(near)) - other(:size(near))) <= near)
    end function are_near
 
 end module known_motions

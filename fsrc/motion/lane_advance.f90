@@ -17,14 +17,26 @@ module lane_advance
    !> Step that is too short to continue [periods].
    real(dp), parameter, public :: shortest_step = 1.0e-14_dp
 
-   public :: take_series_step, take_springs_step, advance
+   public :: take_series_step, advance
 
 contains
+
+   !> Expand all motions of a block, and choose their steps.
+   pure subroutine take_series_step(series, block)
+      type(film_series_t), intent(in) :: series
+      type(lane_block_t), intent(inout) :: block
+
+      if (series%springs) then
+         call take_springs_step(series, block)
+      else
+         call take_rigid_step(series, block)
+      end if
+   end subroutine take_series_step
 
    !> Series and steps of all lanes, and the states they lead to. Steps in which the film changes
    !> by some powers of ten are rejected, and so are series about a point of extreme damping. Conditions are numbers, 0 or
    !> 1, and their products: without branch and integer the loop runs in full registers.
-   pure subroutine take_series_step(series, block)
+   pure subroutine take_rigid_step(series, block)
       type(film_series_t), intent(in) :: series
       type(lane_block_t), intent(inout) :: block
       real(dp) :: next_rise(lanes), thinner(lanes)
@@ -51,7 +63,7 @@ contains
             *merge(1.0_dp, 0.0_dp, block%damping_rate(l) < largest_series_rate)
       end do
       call check_ends(series, next_rise, block)
-   end subroutine take_series_step
+   end subroutine take_rigid_step
 
    !> The same for elastic teeth. An error of a spring counts like that of its film, and one of the gear's velocity as where nothing
    !> damps it. Where a film never pulls, a load that falls by some powers of ten is rejected as well: it would not stay positive.

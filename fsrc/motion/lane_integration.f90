@@ -14,7 +14,7 @@ module lane_integration
    use film_series, only: series_of, set_coefficients
    use kinds, only: dp, int64
    use known_motions, only: known_motions_t
-   use lane_advance, only: advance, largest_series_rate, shortest_step, take_series_step, take_springs_step
+   use lane_advance, only: advance, largest_series_rate, shortest_step, take_series_step
    use lane_block, only: load_problem, lost_film, place_block, rest_lane, start_period, start_status
    use lane_functions, only: lanes
    use lane_inner, only: place_inner
@@ -76,9 +76,7 @@ contains
       end do
       do while (run%active > 0)
          if (must_stop()) exit
-         if (by_series .and. run%own_numbers) then
-            call take_springs_step(run%series, run%block)
-         else if (by_series) then
+         if (by_series) then
             call take_series_step(run%series, run%block)
          else if (run%own_numbers) then
             call take_elastic_step(run%contacts, run%watches%scene > 0, run%block, run%inner)

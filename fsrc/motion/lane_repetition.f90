@@ -16,7 +16,7 @@ module lane_repetition
    use lane_run, only: departure_t, lane_run_t, lane_watch_t
    use lane_sampling, only: repeat_samples
    use lane_state, only: films_of_lane, place_state, state_of_lane, thinner_scaled_film
-   use problem, only: films_at_rest, has_elastic_teeth, of_film, of_velocity, problem_t, settling_of, settling_t, static_load
+   use problem, only: films_near_rest, of_film, of_velocity, problem_t, settling_of, settling_t
    use repetition, only: longer_every, longest_orbit, look_back, note_state, orbit_watch_t, recurrence_t, &
       start_watch, state_of_age, weight_of_film
    use scene_status, only: status_steady
@@ -136,12 +136,9 @@ contains
       type(problem_t), intent(in) :: problem
       type(lane_run_t), intent(in) :: run
 
-      real(dp) :: rest(2)
-
       associate (block => run%block)
-         rest = [block%film_scale(lane), problem%backlash - block%film_scale(lane)]
-         if (has_elastic_teeth(problem)) rest = films_at_rest(problem, static_load(problem))
-         settling_of_lane = settling_of(problem, films_of_lane(run%watches(lane)%state, lane, block)*block%film_scale(lane), rest)
+         settling_of_lane = settling_of(problem, films_of_lane(run%watches(lane)%state, lane, block)*block%film_scale(lane), &
+                                        films_near_rest(problem, block%film_scale(lane)))
          ! Lienard's variable holds the damping.
          if (block%slip(lane) > 0.0_dp) settling_of_lane%damping = 0.0_dp
       end associate

@@ -5,7 +5,7 @@ module lane_sampling
    use lane_block, only: lane_block_t
    use lane_functions, only: lanes
    use lane_inner, only: evaluate_inner, lane_inner_t
-   use lane_state, only: springs_of
+   use lane_state, only: carried_numbers, series_of_number
    use problem, only: of_film, of_velocity
    use taylor_step_control, only: order
    implicit none(type, external)
@@ -63,16 +63,17 @@ contains
       type(lane_samples_t), intent(inout) :: samples
       !> Of all scenes: sample, number of its state, scene
       real(dp), contiguous, intent(inout) :: states(:, :, :)
-      real(dp), dimension(together) :: x, film, velocity, compression
+      real(dp), dimension(together) :: x, film, velocity, values
       real(dp) :: film_series(0:order), lienard_series(0:order)
       real(dp) :: due_until, number
-      integer :: l, i, due, last, first, flank
+      integer :: l, i, due, last, first, carried, k
 
       number = real(samples%per_period, dp)
       do l = 1, lanes
          if (.not. (samples%sampled(l) .and. block%trust(l) > 0.0_dp)) cycle
          film_series = block%film(l, :)
          lienard_series = block%lienard(l, :)
+         carried = carried_numbers(l, block)
          due_until = merge(1.0_dp, block%phase(l) + block%step(l), block%step(l) >= block%remaining(l))
          last = last_sample(due_until, samples%per_period)
          do
@@ -87,13 +88,13 @@ contains
             first = samples%written(l) + 1
             states(first:first + due - 1, of_film, samples%column(l)) = film(:due)*block%film_scale(l)
             states(first:first + due - 1, of_velocity, samples%column(l)) = velocity(:due)*block%velocity_scale(l)
-            do flank = 1, springs_of(l, block)
-               call evaluate_series(block%compression(l, flank, :), x, compression)
-               states(first:first + due - 1, of_velocity + flank, samples%column(l)) = compression(:due)*block%film_scale(l)
+            do k = 1, carried
+               call evaluate_series(series_of_number(l, k, block), x, values)
+               states(first:first + due - 1, of_velocity + k, samples%column(l)) = values(:due)*block%film_scale(l)
             end do
             if (inner(l)%count > 0) call evaluate_inner(inner(l), x(:due), &
-               states(first:first + due - 1, of_velocity + springs_of(l, block) + 1:of_velocity + springs_of(l, block) &
-                      + size(inner(l)%now), samples%column(l)))
+               states(first:first + due - 1, of_velocity + carried + 1:of_velocity + carried + size(inner(l)%now), &
+                      samples%column(l)))
             samples%written(l) = samples%written(l) + due
             samples%next(l) = samples%next(l) + due
          end do

@@ -6,10 +6,12 @@ module lane_state
    use lane_block, only: lane_block_t, slip_velocity
    use lane_inner, only: lane_inner_t
    use problem, only: of_coast_compression, of_drive_compression, of_film, of_velocity
+   use taylor_step_control, only: order
    implicit none(type, external)
    private
 
-   public :: flanks_of, springs_of, state_of_lane, velocity_of_lane, take_state, place_state, films_of_lane, thinner_scaled_film
+   public :: carried_numbers, numbers_of_lane, series_of_number, state_of_lane, velocity_of_lane, &
+              take_state, place_state, films_of_lane, thinner_scaled_film
 
 contains
 
@@ -21,7 +23,7 @@ contains
       integer :: last
 
       last = of_velocity + springs_of(lane, block)
-      allocate (state%numbers(last + inner%count*flanks_of(lane, block)))
+      allocate (state%numbers(numbers_of_lane(lane, block, inner)))
       call take_state(lane, block, inner, state%numbers)
       state%lienard_variable = state%numbers(of_velocity)
       state%numbers(:last) = state%numbers(:last)*block%film_scale(lane)
@@ -53,6 +55,34 @@ contains
       state(of_drive_compression:of_velocity + springs) = block%compression(lane, :springs, 0)
       if (inner%count > 0) state(of_drive_compression + springs:) = inner%now
    end subroutine take_state
+
+   !> Numbers of a state that the block carries beside film and velocity; they stand behind these.
+   pure integer function carried_numbers(lane, block)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+
+      carried_numbers = springs_of(lane, block)
+   end function carried_numbers
+
+   !> Numbers of the state of the motion in a lane.
+   pure integer function numbers_of_lane(lane, block, inner)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      type(lane_inner_t), intent(in) :: inner
+
+      numbers_of_lane = of_velocity + springs_of(lane, block) + inner%count*flanks_of(lane, block)
+   end function numbers_of_lane
+
+   !> Series of one of the carried numbers about the start of the step, scaled like films [-].
+   pure function series_of_number(lane, number, block) result(series)
+      integer, intent(in) :: lane
+      !> 1 to carried_numbers
+      integer, intent(in) :: number
+      type(lane_block_t), intent(in) :: block
+      real(dp) :: series(0:order)
+
+      series = block%compression(lane, number, :)
+   end function series_of_number
 
    !> Springs of the motion in a lane.
    pure integer function springs_of(lane, block)

@@ -9,8 +9,8 @@ module newmark_engine
    use kinds, only: dp, int64
    use newmark, only: advance_period, start_motion
    use newmark_step, only: newmark_state_t
-   use problem, only: has_two_flanks, of_film, of_velocity, problem_t, reference_film, &
-      reference_films, settling_of, state_size
+   use problem, only: film_unit, of_film, of_velocity, problem_t, reference_films, rigid_films, settling_of, state_size, &
+      thinner_in_units
    use repetition, only: note_state, orbit_watch_t
    use scene_status, only: status_complete, status_steady
    use window_record, only: window_record_t
@@ -131,20 +131,13 @@ contains
       type(orbit_watch_t), intent(inout) :: states
       !> Periods after which the motion repeats, 0: not known to, or too many
       integer, intent(out) :: orbit
-      real(dp) :: distance, unit, backlash, coast
+      real(dp) :: distance, unit
 
-      ! The film at t = 0 scales the states, between two flanks the thinner one at rest.
-      unit = problem%initial_film
-      backlash = huge(1.0_dp)
-      coast = huge(1.0_dp)
-      if (has_two_flanks(problem)) then
-         unit = reference_film(problem)
-         backlash = problem%backlash/unit
-         coast = problem%backlash - state%film
-      end if
+      unit = film_unit(problem)
       call note_state(states, [state%film/unit, state%velocity/(unit*problem%frequency)], &
-                      min(state%film/unit, backlash - state%film/unit), [1.0_dp, 1.0_dp/two_pi], &
-                      settling_of(problem, [state%film, coast], reference_films(problem)), repetition_tolerance, orbit, distance)
+                      thinner_in_units(problem, state%film/unit, unit), [1.0_dp, 1.0_dp/two_pi], &
+                      settling_of(problem, rigid_films(problem, state%film), reference_films(problem)), repetition_tolerance, &
+                      orbit, distance)
       if (orbit > periods_left) orbit = 0
    end subroutine look_back
 

@@ -7,7 +7,7 @@ module step_nodes
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_inner, only: evaluate_inner, lane_inner_t
-   use lane_state, only: flanks_of, springs_of
+   use lane_state, only: carried_numbers, numbers_of_lane, series_of_number
    use problem, only: of_film, of_velocity
    use taylor_step_control, only: order
    implicit none(type, external)
@@ -53,15 +53,14 @@ contains
       type(step_nodes_t), intent(inout) :: nodes
       real(dp), dimension(nodes_per_piece) :: x, film, velocity, odd_film, odd_velocity
       real(dp) :: film_series(0:order), lienard_series(0:order), length
-      integer :: pieces, piece, before, numbers, springs, i, k
+      integer :: pieces, piece, before, carried, i, k
 
       film_series = block%film(lane, :)
       lienard_series = block%lienard(lane, :)
       pieces = max(1, ceiling(block%step(lane)/longest_piece))
       length = block%step(lane)/real(pieces, dp)
-      springs = springs_of(lane, block)
-      numbers = of_velocity + springs + inner%count*flanks_of(lane, block)
-      call provide_room(nodes, nodes%pieces + pieces, numbers)
+      carried = carried_numbers(lane, block)
+      call provide_room(nodes, nodes%pieces + pieces, numbers_of_lane(lane, block, inner))
       do piece = 1, pieces
          x = (real(piece - 1, dp) + node_place)*length
          ! Even and odd powers apart: four sums that do not wait for each other.
@@ -92,10 +91,10 @@ contains
          nodes%length(nodes%pieces) = length
          nodes%states(before + 1:before + nodes_per_piece, of_film) = film*block%film_scale(lane)
          nodes%states(before + 1:before + nodes_per_piece, of_velocity) = velocity*block%velocity_scale(lane)
-         if (springs > 0) call take_compressions(block, lane, x, nodes%states(before + 1:before + nodes_per_piece, &
-                                                                              of_velocity + 1:of_velocity + springs))
+         if (carried > 0) call take_carried(block, lane, x, nodes%states(before + 1:before + nodes_per_piece, &
+                                                                         of_velocity + 1:of_velocity + carried))
          if (inner%count > 0) call evaluate_inner(inner, x, nodes%states(before + 1:before + nodes_per_piece, &
-                                                                         of_velocity + springs + 1:))
+                                                                         of_velocity + carried + 1:))
       end do
    end subroutine take_nodes
 
@@ -116,25 +115,26 @@ contains
       nodes%length(nodes%pieces) = length
    end subroutine add_piece
 
-   !> Compressions of the springs of a lane, one or two.
-   pure subroutine take_compressions(block, lane, x, compressions)
+   !> Numbers of a lane that its block carries beside film and velocity.
+   pure subroutine take_carried(block, lane, x, values)
       type(lane_block_t), intent(in) :: block
       integer, intent(in) :: lane
       !> Times since the step began [periods]
       real(dp), intent(in) :: x(nodes_per_piece)
-      !> Node, flank [m]
-      real(dp), intent(out) :: compressions(:, :)
-      real(dp) :: compression(nodes_per_piece)
-      integer :: flank, k
+      !> Node, number [m]
+      real(dp), intent(out) :: values(:, :)
+      real(dp) :: value(nodes_per_piece), series(0:order)
+      integer :: number, k
 
-      do flank = 1, size(compressions, 2)
-         compression = 0.0_dp
+      do number = 1, size(values, 2)
+         series = series_of_number(lane, number, block)
+         value = 0.0_dp
          do k = order, 0, -1
-            compression = compression*x + block%compression(lane, flank, k)
+            value = value*x + series(k)
          end do
-         compressions(:, flank) = compression*block%film_scale(lane)
+         values(:, number) = value*block%film_scale(lane)
       end do
-   end subroutine take_compressions
+   end subroutine take_carried
 
    !> See that so many pieces have their place.
    pure subroutine provide_room(nodes, pieces, numbers)

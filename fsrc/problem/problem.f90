@@ -17,9 +17,9 @@ module problem
    use film_state, only: load_t, state_number_t
    use flank_contact, only: contact_of, film_under, flank_contact_t, inner_count, inner_number, is_elastic, load_at_rest, &
       compliance_at_rest
-   use force, only: force_of, force_t, largest_size
+   use force, only: force_of, force_t, largest_oscillation, largest_size
    use kinds, only: dp
-   use scene_types, only: scene_t
+   use scene_types, only: least_static_load, scene_t
    implicit none(type, external)
    private
 
@@ -58,8 +58,9 @@ module problem
    end type settling_t
 
    public :: problem_of, has_two_flanks, has_elastic_teeth, has_own_position, has_inner_numbers, same_kind, contact_count, &
-             compression_count, state_size, state_numbers, state_number_t, inner_places, static_load, largest_applied_force, &
-             closing_velocity, film_at_rest, films_at_rest, loads_at_rest, reference_films, reference_film, thinner_film, &
+             compression_count, moving_numbers, state_size, state_numbers, state_number_t, inner_places, static_load, &
+             largest_applied_force, force_to_resolve, closing_velocity, film_at_rest, films_at_rest, films_near_rest, rigid_films, &
+             film_unit, thinner_in_units, acceleration_by_lengths, loads_at_rest, reference_films, reference_film, thinner_film, &
              linearise, settling_of
 
 contains
@@ -157,6 +158,14 @@ contains
       compression_count = merge(contact_count(problem), 0, has_elastic_teeth(problem))
    end function compression_count
 
+   !> How many numbers of a state tell how gear and teeth stand and move: film, velocity, and what contacts are compressed by. They
+   !> are its first ones; states of films stand behind them.
+   elemental integer function moving_numbers(problem)
+      type(problem_t), intent(in) :: problem
+
+      moving_numbers = of_velocity + compression_count(problem)
+   end function moving_numbers
+
    !> How many numbers a state has.
    elemental integer function state_size(problem)
       type(problem_t), intent(in) :: problem
@@ -229,6 +238,68 @@ contains
          films = [film_under(problem%contact, load), huge(1.0_dp)]
       end if
    end function films_at_rest
+
+   !> Films at rest, near enough to tell how films settle: of rigid teeth about a film near that of the drive flank at rest [m].
+   pure function films_near_rest(problem, film) result(films)
+      type(problem_t), intent(in) :: problem
+      !> Near that of the drive flank at rest [m]
+      real(dp), intent(in) :: film
+      real(dp) :: films(2)
+
+      films = rigid_films(problem, film)
+      if (has_elastic_teeth(problem)) films = films_at_rest(problem, static_load(problem))
+   end function films_near_rest
+
+   !> Films of drive and coast flank of rigid teeth, the second huge where there is one flank [m].
+   pure function rigid_films(problem, film) result(films)
+      type(problem_t), intent(in) :: problem
+      !> Film of the drive flank [m]
+      real(dp), intent(in) :: film
+      real(dp) :: films(2)
+
+      films = [film, problem%backlash - film]
+   end function rigid_films
+
+   !> Film that states of rigid teeth are told apart in: that of the start, between two flanks the thinner one at rest [m].
+   elemental real(dp) function film_unit(problem)
+      type(problem_t), intent(in) :: problem
+
+      film_unit = problem%initial_film
+      if (has_two_flanks(problem)) film_unit = reference_film(problem)
+   end function film_unit
+
+   !> The thinner one of the films of rigid teeth in some unit [-].
+   elemental real(dp) function thinner_in_units(problem, film, unit) result(thinner)
+      type(problem_t), intent(in) :: problem
+      !> Film of the drive flank over the unit [-]
+      real(dp), intent(in) :: film
+      !> [m]
+      real(dp), intent(in) :: unit
+
+      thinner = film
+      if (has_two_flanks(problem)) thinner = min(film, problem%backlash/unit - film)
+   end function thinner_in_units
+
+   !> Force that steps have to resolve [N]: the static load, which presses on one flank; between two flanks it may be nothing, and
+   !> all of the force counts.
+   pure real(dp) function force_to_resolve(problem, static)
+      type(problem_t), intent(in) :: problem
+      !> Q + m g [N]
+      real(dp), intent(in) :: static
+
+      force_to_resolve = static
+      if (has_two_flanks(problem)) force_to_resolve = max(abs(static) + largest_oscillation(problem%force), least_static_load)
+   end function force_to_resolve
+
+   !> Acceleration by which a length is off that contacts are compressed by; 0 with rigid teeth [m/s2].
+   elemental real(dp) function acceleration_by_lengths(problem, length) result(acceleration)
+      type(problem_t), intent(in) :: problem
+      !> [m]
+      real(dp), intent(in) :: length
+
+      acceleration = 0.0_dp
+      if (has_elastic_teeth(problem)) acceleration = length/(problem%contact%compliance*problem%mass)
+   end function acceleration_by_lengths
 
    !> Loads of both films of a tooth that rests between its flanks under a load. Their difference is that load, and the films that
    !> carry them fill the backlash and what both springs give,

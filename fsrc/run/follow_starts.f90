@@ -7,7 +7,7 @@
 module follow_starts
    use carried_loads, only: counts_as, thinnest_film
    use coexisting_motions, only: coexisting_motions_t, told_motion_t
-   use engine, only: ending_t, motion_state_t, request_t, status_of_stop
+   use engine, only: ending_t, motion_state_t, request_t, status_of_stop, state_of_start
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use irregular_motion, only: follow_irregular
@@ -16,8 +16,7 @@ module follow_starts
    use kinds, only: dp
    use known_motions, only: reached_motion
    use many_motions, only: solve_motions
-   use motion_start, only: chosen_starts, motion_start_t, motion_starts, one_start_reason, start_count, &
-      start_is_given, state_of_start
+   use motion_start, only: chosen_starts, motion_start_t, motion_starts, one_start_reason, start_count, start_is_given
    use node_extremes, only: seen_films
    use periodic_orbit, only: attracting_period, map_states, periodic_orbit_t
    use problem, only: of_film, of_velocity, problem_t, state_size

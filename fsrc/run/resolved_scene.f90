@@ -8,11 +8,11 @@ module resolved_scene
    use force, only: largest_oscillation
    use kinds, only: dp
    use linear_motion, only: natural_motion
-   use problem, only: films_at_rest, has_elastic_teeth, has_two_flanks, linearise, problem_of, problem_t
+   use problem, only: acceleration_by_lengths, films_at_rest, force_to_resolve, linearise, problem_of, problem_t
    use regime, only: steel_tooth
    use regime_check, only: steady_alpha_p
    use rupture, only: squeeze_group
-   use scene_types, only: drag_t, excitation_t, iteration_newton, least_static_load, method_newmark, predictor_extrapolated, &
+   use scene_types, only: drag_t, excitation_t, iteration_newton, method_newmark, predictor_extrapolated, &
                           scene_t, until_steady
    use taylor_step_control, only: film_weight, lienard_weight
    implicit none(type, external)
@@ -79,13 +79,11 @@ contains
          if (.not. resolved%steady_film > 0.0_dp) return
          call linearise(problem, rest, stiffness, damping)
          call natural_motion(problem, rest, resolved%natural_frequency, resolved%damping_ratio)
-         force = static_load
-         if (has_two_flanks(problem)) force = max(abs(static_load) + largest_oscillation(problem%force), least_static_load)
+         force = force_to_resolve(problem, static_load)
          resolved%noise_by_accuracy = noise_of_steps(minval(rest), stiffness/mass, damping/mass, &
                                                      force/mass, problem%frequency)
-         ! What is left over of a spring's compression when the iterations of an implicit step end
-         if (has_elastic_teeth(problem)) resolved%noise_by_accuracy = &
-            max(resolved%noise_by_accuracy, pass_share*minval(rest)/(problem%contact%compliance*mass))
+         ! What is left over of the compression of contacts when the iterations of an implicit step end
+         resolved%noise_by_accuracy = max(resolved%noise_by_accuracy, acceleration_by_lengths(problem, pass_share*minval(rest)))
          ! Steps of films in nodes follow the loads that there are, to shares of them.
          if (film%in_nodes) resolved%noise_by_accuracy = nodal_share*force/mass
          ! Newmark's steps are not chosen by an accuracy, and at rest they stand still. What a loose tolerance makes of them

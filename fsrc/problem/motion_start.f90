@@ -1,9 +1,7 @@
 !> Where motions start by which all motions of one operating point are looked for: from rest, from the coast flank, out of the
 !> middle of the gap, and from films and velocities drawn at random. THEORY.md says why these, and what they can tell.
 module motion_start
-   use carried_loads, only: initial_state
    use constants, only: two_pi
-   use engine, only: motion_state_t
    use kinds, only: dp, int64
    use linear_motion, only: natural_motion
    use problem, only: film_at_rest, films_at_rest, has_two_flanks, problem_t, static_load
@@ -37,8 +35,8 @@ module motion_start
    !> Least share of the oscillating force that a tooth is taken to rest under on the coast flank [-].
    real(dp), parameter :: least_load = 0.01_dp
 
-   public :: characteristic_velocity, gap_of_starts, motion_starts, start_is_given, state_of_start, &
-             one_start_reason, one_start_sentence, start_count
+   public :: characteristic_velocity, gap_of_starts, motion_starts, start_is_given, one_start_reason, one_start_sentence, &
+             start_count
 
 contains
 
@@ -128,18 +126,6 @@ contains
 
       drawn = (real(random_bits(int(seed, int64), int(stream, int64), int(place, int64)), dp) + 0.5_dp)/2.0_dp**random_bit_count
    end function drawn
-
-   !> State of a motion that starts there; contacts with numbers of their own have stood still for long.
-   pure type(motion_state_t) function state_of_start(problem, start) result(state)
-      type(problem_t), intent(in) :: problem
-      type(motion_start_t), intent(in) :: start
-      type(problem_t) :: moved
-
-      moved = problem
-      moved%initial_film = start%film
-      moved%initial_velocity = start%velocity
-      state = motion_state_t(numbers=initial_state(moved))
-   end function state_of_start
 
    !> Why the motion from one start is all that is asked for, or several_starts.
    pure integer function one_start_reason(problem, method) result(reason)
