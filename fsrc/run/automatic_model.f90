@@ -2,23 +2,21 @@
 !> it was fitted to, where it ended without a window, or where the verdict stands so near its limit that an error of the closure
 !> could change it.
 module automatic_model
-   use controlled_engine, only: solve_controlled
    use elastohydrodynamic_closure, only: error_of_loads
    use engine, only: checkpoint_t, ending_t, unwatched_t
    use errors, only: error_t
    use judge_scene, only: judge, note_ending
    use judged_scene, only: judged_scene_t, largest_load
    use kinds, only: dp
-   use nodal_scene, only: choice_of, solve_nodal_scene
    use node_extremes, only: seen_loads, seen_net_load_of
    use problem, only: contact_count, largest_applied_force
    use regime_check, only: closure_range, closure_range_sentence, outside_closure
-   use resolved_scene, only: request_of, resolve
+   use resolved_scene, only: resolve
    use sample_recorder, only: sample_recorder_t
+   use scene_engine, only: solve_scene
    use scene_status, only: is_success, status_film_cycles, status_film_torn, status_interrupted, status_name
    use scene_types, only: model_closure, model_resolved, scene_t
    use text, only: short_text
-   use text_output, only: lock_texts, unlock_texts
    use window_record, only: window_record_t
    implicit none(type, external)
    private
@@ -189,14 +187,7 @@ contains
       associate (problem => judged%resolved%problem)
          call recorder%open(scene, problem, '', 0, error)
          if (allocated(error)) return
-         call unlock_texts()
-         if (scene%film%model == model_resolved) then
-            call choice_of(scene, problem, judged%nodal)
-            call solve_nodal_scene(scene, problem, judged%nodal, request_of(scene), recorder, nobody, ending, record, error)
-         else
-            call solve_controlled(problem, request_of(scene), recorder, nobody, state, ending, record, error)
-         end if
-         call lock_texts()
+         call solve_scene(scene, problem, recorder, nobody, state, judged%nodal, ending, record, error)
       end associate
       call note_ending(ending, judged)
       if (.not. allocated(error)) call judge(scene, recorder, record, ending, judged, error)

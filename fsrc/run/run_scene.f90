@@ -2,7 +2,6 @@
 module run_scene
    use automatic_model, only: choose_model
    use clock, only: wall_seconds
-   use controlled_engine, only: solve_controlled
    use engine, only: checkpoint_t, ending_t
    use errors, only: error_t
    use finished_files, only: place_files
@@ -12,23 +11,21 @@ module run_scene
    use judged_scene, only: judged_scene_t
    use kinds, only: dp
    use log_file, only: log_t
-   use newmark_engine, only: solve_newmark
    use nodal_profiles, only: nodal_profiles_t
-   use nodal_scene, only: choice_of, solve_nodal_scene
    use motions_table, only: write_motions
    use output_place, only: has_motions_table, log_path, motions_path, profiles_path, result_path, state_path, summary_path
    use profiles_table, only: write_profiles
    use progress, only: progress_t
-   use resolved_scene, only: request_of, resolve
+   use resolved_scene, only: resolve
    use resume, only: load_state, save_state
    use sample_recorder, only: sample_recorder_t
+   use scene_engine, only: solve_scene
    use scene_report, only: report_ending, report_start
    use scene_status, only: is_success, status_complete, status_interrupted, status_not_written
    use scene_summary, only: write_scene_summary
-   use scene_types, only: method_taylor, model_resolved, scene_t
+   use scene_types, only: model_resolved, scene_t
    use signals, only: caught_signal
    use text, only: integer_text
-   use text_output, only: lock_texts, unlock_texts
    use window_record, only: window_record_t
    use word_list, only: word_t
    implicit none(type, external)
@@ -111,19 +108,9 @@ contains
       call recorder%open(scene, judged%resolved%problem, result_path(scene), state%periods, error)
       if (.not. allocated(error)) then
          call watcher%start(log, 'periods', quiet)
-         call unlock_texts()
-         if (scene%film%model == model_resolved) then
-            call choice_of(scene, judged%resolved%problem, judged%nodal)
-            profiles%wanted = scene%output%profiles
-            if (allocated(scene%output%profile_phases)) profiles%phases = scene%output%profile_phases
-            call solve_nodal_scene(scene, judged%resolved%problem, judged%nodal, request_of(scene), recorder, watcher, ending, &
-                                   record, error, profiles, state)
-         else if (scene%solver%method /= method_taylor) then
-            call solve_newmark(judged%resolved%problem, request_of(scene), recorder, watcher, state, ending, record, error)
-         else
-            call solve_controlled(judged%resolved%problem, request_of(scene), recorder, watcher, state, ending, record, error)
-         end if
-         call lock_texts()
+         profiles%wanted = scene%output%profiles
+         if (allocated(scene%output%profile_phases)) profiles%phases = scene%output%profile_phases
+         call solve_scene(scene, judged%resolved%problem, recorder, watcher, state, judged%nodal, ending, record, error, profiles)
          call watcher%clear()
          solve_seconds = wall_seconds() - started
          call note_ending(ending, judged)
