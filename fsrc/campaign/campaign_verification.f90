@@ -5,10 +5,8 @@
 !> on until the motion repeats, the tighter one within its own accuracy, and their forecasts may save different periods: the
 !> orbits are held against each other, beginning with whichever of their periods fits best.
 module campaign_verification
-   use doubt, only: doubt_t, first_doubt, is_doubted
-   use verification, only: verification_t, compare_windows, doubt_behind, doubt_of_closing, doubt_of_flight, doubt_of_return, &
-      doubt_of_impacts, &
-      windows_behind
+   use doubt, only: doubt_samples, doubt_t, is_doubted
+   use verification, only: verification_t, compare_windows, doubt_behind, doubt_of_windows, windows_behind
    use verify_scene, only: nearby_orbit, tighten
    use engine, only: motion_state_t, request_t, start_of
    use kinds, only: dp
@@ -114,23 +112,19 @@ contains
       type(scene_group_t), intent(in) :: group
       type(scene_group_t), intent(in) :: tight
       type(verification_t) :: verification
-      type(doubt_t) :: unclosed
+      type(doubt_t) :: unclosed, too_few_samples
       integer, allocatable :: same(:)
 
       associate (record => group%records(place), tight_record => tight%records(tight_place), verdict => group%verdicts(place), &
                  tight_verdict => tight%verdicts(tight_place), problem => resolved%problem, &
                  samples => group%endings(place)%samples, tight_samples => tight%endings(tight_place)%samples)
-         unclosed = first_doubt([doubt_of_flight(tight_record, problem%contact%film%radius), &
-                                 doubt_of_closing(record, problem%frequency, problem%mass, resolved%noise_floor), &
-                                 doubt_of_closing(tight_record, problem%frequency, problem%mass, tight_noise), &
-                                 doubt_of_impacts(verdict, tight_verdict, samples/tighter%samples_per_period), &
-                                 doubt_of_return(verdict, samples/tighter%samples_per_period, &
-                                                 films_of(problem, reshape([tight_record%start%numbers, &
-                                                                            tight%endings(tight_place)%numbers], &
-                                                                           [2, size(tight_record%start%numbers)], order=[2, 1])), &
-                                                 choice%verification_tolerance)])
-         class_stands = .not. is_doubted(unclosed) .and. verdict%spectrum%sampling_sufficient .and. &
-            tight_verdict%spectrum%sampling_sufficient
+         too_few_samples = doubt_t()
+         if (.not. (verdict%spectrum%sampling_sufficient .and. tight_verdict%spectrum%sampling_sufficient)) &
+            too_few_samples = doubt_t(doubt_samples)
+         unclosed = doubt_of_windows(problem, record, tight_record, resolved%noise_floor, tight_noise, verdict, tight_verdict, &
+                                     too_few_samples, samples/tighter%samples_per_period, tight%endings(tight_place)%numbers, &
+                                     choice%verification_tolerance)
+         class_stands = .not. is_doubted(unclosed)
          if (.not. class_stands) return
          same = same_phase(group%states(:samples, of_film, place), tight%states(:tight_samples, of_film, tight_place), &
                            tighter%samples_per_period, &

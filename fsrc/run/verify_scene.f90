@@ -2,10 +2,9 @@
 !> method solved it first, sampled finely enough for its harmonics; and the periodic motion behind it with its Floquet
 !> multipliers.
 module verify_scene
-   use doubt, only: doubt_samples, doubt_t, doubt_tighter_ending, first_doubt, is_doubted
-   use verification, only: verification_t, compare_windows, doubt_behind, doubt_of_closing, doubt_of_flight, doubt_of_return, &
-      doubt_of_impacts, &
-      severity_error, no_verification, windows_behind
+   use doubt, only: doubt_samples, doubt_t, doubt_tighter_ending, is_doubted
+   use verification, only: verification_t, compare_windows, doubt_behind, doubt_of_impacts, doubt_of_windows, severity_error, &
+      no_verification, windows_behind
    use engine, only: ending_t, motion_state_t, request_t, start_of
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
@@ -87,18 +86,10 @@ contains
          if (present(orbit) .and. found%period > 0) orbit = found
       end if
       call note_known(tight_verdict, verdict)
-      associate (problem => resolved%problem)
-         unclosed = first_doubt([doubt_of_flight(tight%record, problem%contact%film%radius), &
-                                 doubt_of_closing(window%record, problem%frequency, problem%mass, resolved%noise_floor), &
-                                 doubt_of_closing(tight%record, problem%frequency, problem%mass, &
-                                                  resolved%noise_floor_at(accuracy)), &
-                                 doubt_of_samples(scene, verdict, tight, tight_verdict), &
-                                 doubt_of_impacts(verdict, tight_verdict, window%periods), &
-                                 doubt_of_return(verdict, window%periods, &
-                                                 films_of(problem, reshape([tight%record%start%numbers, ending%numbers], &
-                                                                           [2, size(ending%numbers)], order=[2, 1])), &
-                                                 scene%spectrum%verification_tolerance)])
-      end associate
+      unclosed = doubt_of_windows(resolved%problem, window%record, tight%record, resolved%noise_floor, &
+                                  resolved%noise_floor_at(accuracy), verdict, tight_verdict, &
+                                  doubt_of_samples(scene, verdict, tight, tight_verdict), window%periods, ending%numbers, &
+                                  scene%spectrum%verification_tolerance)
       if (.not. is_doubted(unclosed) .and. verdict%class == class_irregular .and. tight_verdict%class == class_irregular) then
          call look_behind(scene, resolved%problem, accuracy, resolved%noise_floor_at(accuracy), tight, ending, unclosed, error)
          if (allocated(error)) return

@@ -2,11 +2,13 @@
 module verification
    use doubt, only: doubt_class, doubt_class_behind, doubt_count, doubt_count_bound, doubt_distortion, doubt_distortion_bound, &
       doubt_ending_behind, doubt_energy, doubt_film, doubt_flight, doubt_fraction_close, doubt_fraction_error, doubt_impacts, &
-      doubt_largest_harmonic, doubt_momentum, doubt_parting, doubt_return, doubt_sentence, doubt_t, is_doubted, parting_sentence
+      doubt_largest_harmonic, doubt_momentum, doubt_parting, doubt_return, doubt_sentence, doubt_t, first_doubt, is_doubted, &
+      parting_sentence
+   use carried_loads, only: films_of
    use kinds, only: dp
    use vibration_severity, only: vibration_severity_t
    use node_extremes, only: seen_acceleration, seen_films
-   use problem, only: of_velocity
+   use problem, only: of_velocity, problem_t
    use regime_check, only: gap_too_wide, model_limit
    use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, is_off_harmonics, rattle_verdict_t
    use scene_status, only: is_success
@@ -61,8 +63,7 @@ module verification
    real(dp), parameter :: least_reversals = 8.0_dp
 
    public :: compare_windows, severity_error, no_verification, verification_word, verification_sentence, &
-             doubt_of_closing, doubt_of_flight, doubt_of_impacts, &
-             doubt_of_return, windows_behind, doubt_behind
+             doubt_of_windows, doubt_of_closing, doubt_of_flight, doubt_of_impacts, doubt_of_return, windows_behind, doubt_behind
 
 contains
 
@@ -209,6 +210,38 @@ contains
       end function numbers_of
 
    end function severity_error
+
+   !> First reason to doubt a motion by its window and that of its tighter solution, before both are held against each other.
+   pure type(doubt_t) function doubt_of_windows(problem, record, tight_record, noise_floor, tight_noise, verdict, tight_verdict, &
+                                                too_few_samples, periods, tight_end, tolerance) result(doubt)
+      type(problem_t), intent(in) :: problem
+      !> Records of both windows
+      type(window_record_t), intent(in) :: record
+      type(window_record_t), intent(in) :: tight_record
+      !> Accelerations that the errors of both solutions explain [m/s2]
+      real(dp), intent(in) :: noise_floor
+      real(dp), intent(in) :: tight_noise
+      !> Verdicts of both
+      type(rattle_verdict_t), intent(in) :: verdict
+      type(rattle_verdict_t), intent(in) :: tight_verdict
+      !> Doubt about the samples of both, or none
+      type(doubt_t), intent(in) :: too_few_samples
+      !> Periods of the window
+      integer, intent(in) :: periods
+      !> Numbers of the state where the tighter solution ends
+      real(dp), intent(in) :: tight_end(:)
+      !> Difference of films up to which a regular motion is verified [-]
+      real(dp), intent(in) :: tolerance
+
+      doubt = first_doubt([doubt_of_flight(tight_record, problem%contact%film%radius), &
+                           doubt_of_closing(record, problem%frequency, problem%mass, noise_floor), &
+                           doubt_of_closing(tight_record, problem%frequency, problem%mass, tight_noise), &
+                           too_few_samples, &
+                           doubt_of_impacts(verdict, tight_verdict, periods), &
+                           doubt_of_return(verdict, periods, films_of(problem, reshape([tight_record%start%numbers, tight_end], &
+                                                                                       [2, size(tight_end)], order=[2, 1])), &
+                                           tolerance)])
+   end function doubt_of_windows
 
    !> Why a window does not close.
    pure type(doubt_t) function doubt_of_closing(record, frequency, mass, noise_floor) result(doubt)
