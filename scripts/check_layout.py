@@ -25,10 +25,10 @@ KNOW_LAWS = {
     "fsrc/run/scene_report.f90",
 }
 
-# The only files below problem that name flanks or springs, by the equations that they hold. None is added; one that
-# no longer names them leaves the list.
+# The only files below problem that name flanks or springs, by the equations that they hold. None is added;
+# one that no longer names them leaves the list.
 KNOW_FLANKS = {
-    "Taylor series: what each law expands differs by its flanks and springs, as do the ends that are checked": (
+    "Taylor series: what a law expands, and the ends that are checked, differ by flanks and springs": (
         "motion/film_series",
         "motion/lane_advance",
         "motion/many_motions",
@@ -38,14 +38,14 @@ KNOW_FLANKS = {
         "motion/taylor_rupture",
         "motion/taylor_springs",
     ),
-    "implicit steps: residuals with films of both flanks, and with the springs behind them": (
+    "implicit steps: residuals with films of both flanks, and with their springs": (
         "motion/collocation_newton",
         "motion/elastic_equations",
         "motion/elastic_step",
         "motion/elastic_trial",
         "motion/inner_equations",
     ),
-    "steps of films in nodes: each flank has its nodes, its gap and its deflection": (
+    "steps of films in nodes: each flank has nodes, a gap and a deflection": (
         "motion/nodal_engine",
         "motion/nodal_profiles",
         "motion/nodal_state",
@@ -53,7 +53,7 @@ KNOW_FLANKS = {
         "motion/nodal_tangent",
         "orbit/nodal_orbit",
     ),
-    "rows of a block: what series and implicit steps take of a lane, and which number of a state each row is": (
+    "rows of a block: what steps take of a lane, and which number of a state each row is": (
         "motion/lane_block",
         "motion/lane_state",
     ),
