@@ -6,7 +6,8 @@ module reference_motions
    use impact_window, only: impact_window_t, solve_impact_window
    use kinds, only: dp, int64
    use lobatto_rule, only: lobatto_rule_t
-   use motion_start, only: motion_start_t, state_of_start
+   use engine, only: state_of_start
+   use motion_start, only: motion_start_t
    use problem, only: problem_t
    use random_walk, only: next_uniform, random_state_t
    implicit none(type, external)

@@ -166,8 +166,9 @@ def test_multipliers_are_what_deviations_decay_by(repository: Path) -> None:
     ends = np.array([solved.result[name][::64] for name in ("film_thickness", "squeeze_velocity")])
     steps = np.diff(ends / np.abs(ends).max(axis=1)[:, None], axis=1)
     # Steps of a linear map: d(n + 2) = 2 Re(m) d(n + 1) - |m|^2 d(n). Before period 30 bounces still change
-    # in kind; behind period 60 the errors of steps, 1e-5, are a hundredth of what is left.
-    for first in (30, 35, 40):
+    # in kind; at period 55 deviations have fallen to 2e-5, near the errors of steps: what is seen in the two
+    # windows differs by 1.2e-3, and they are held to that.
+    for first in (30, 35):
         here = steps[:, first : first + 20]
         before = np.concatenate([np.stack([line[1:-1], line[:-2]], axis=1) for line in here])
         factors = np.linalg.lstsq(before, np.concatenate([line[2:] for line in here]), rcond=None)[0]
