@@ -79,14 +79,14 @@ STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
 VPATH := $(addprefix fsrc/,$(FOLDERS)) fsrc tests/unit tests/benchmarks tests/stress
 
 .DEFAULT_GOAL := all
-.PHONY: all run test test-long unit user user-long lint debug python bench bench-build bench-changed trends stress stress-sample faults faults-sample touched sanitize mutants release-check doc test-cluster compilers clean install uninstall help format pages pictures FORCE
+.PHONY: all run test test-long unit unit-debug user user-long lint debug python bench bench-build bench-changed trends stress stress-sample faults faults-sample touched sanitize mutants release-check doc test-cluster compilers clean install uninstall help format pages pictures FORCE
 
 all: $(BUILD)/rattle
 
 help:
 	@echo 'make              build the program as $(BUILD)/rattle'
 	@echo 'make run          solve the two scenes of the paper, draw its figures, compare idle with creep'
-	@echo 'make test         unit tests (release and debug build) and user tests: about eight minutes on two cores'
+	@echo 'make test         unit tests and user tests: about five minutes on two cores'
 	@echo 'make test-long    user tests that take long, samples of the studies of stress and faults'
 	@echo 'make lint         compiler warnings, rules of the layout, style of Fortran and Python'
 	@echo 'make debug        build with every run-time check as $(BUILD)/debug/rattle'
@@ -198,15 +198,17 @@ run: $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(PYTHON) scripts/plot.py motion --overwrite results/idle.rattle results/creep.rattle --output results
 	@$(PYTHON) scripts/compare.py results/idle.summary.nml results/creep.summary.nml
 
-# --- tests: the unit tests in both builds, then what a user does -------------------------------------
+# --- tests: the unit tests, then what a user does ----------------------------------------------------
 
 # What takes long, a build in another place, a browser, faults and samples of the studies, is left to test-long.
 test: unit user
-test-long: user-long touched stress-sample faults-sample
+test-long: unit-debug user-long touched stress-sample faults-sample
 
 unit: $(BUILD)/unit_tests
 	@echo 'unit tests, release build'
 	@$(BUILD)/unit_tests
+
+unit-debug:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/debug DEBUG=1 $(BUILD)/debug/unit_tests $(BUILD)/debug/rattle
 	@echo 'unit tests, debug build with every run-time check'
 	@$(BUILD)/debug/unit_tests

@@ -3,7 +3,7 @@ module scene_group
    use verify_scene, only: nearby_orbit
    use errors, only: error_t
    use engine, only: ending_t, motion_state_t, request_t, reserved_periods
-      use finer_windows, only: classify_finer
+   use finer_windows, only: classify_finer
    use irregular_motion, only: follow_irregular
    use lyapunov, only: path_t
    use kinds, only: dp

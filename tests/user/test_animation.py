@@ -29,6 +29,7 @@ def motions(repository: Path, tmp_path_factory) -> Path:
     return folder
 
 
+@pytest.mark.long
 def test_a_period_takes_ten_seconds(motions: Path, tmp_path: Path) -> None:
     code, said, complained = called_here(
         "plot.py", "motion", "--animate", motions / "loose_pair.rattle", cwd=tmp_path

@@ -47,6 +47,7 @@ def rows(run, tmp_path_factory) -> Path:
     return folder
 
 
+@pytest.mark.long
 def test_rows_are_single_scenes_of_the_model_they_tell(rows: Path) -> None:
     table = package.read(rows / "one/rows.rattle")
     models = ["", "closure", "resolved"]
@@ -83,6 +84,7 @@ def test_threads_and_parts_leave_the_same_bytes(rows: Path, run) -> None:
         np.testing.assert_array_equal(joined, np.array(columns[name]))
 
 
+@pytest.mark.long
 def test_a_campaign_that_is_killed_and_resumed_has_the_same_bytes(rows: Path, run, rattle: Path) -> None:
     """Killed twice among rows by the closure and rows in nodes; each time some are not solved yet."""
     forces = ", ".join(f"{0.5 * 1.5**k:.4f}" for k in range(12))
@@ -110,6 +112,7 @@ def test_a_campaign_that_is_killed_and_resumed_has_the_same_bytes(rows: Path, ru
     assert result.read_bytes() == (rows / "whole/many.rattle").read_bytes()
 
 
+@pytest.mark.long
 def test_rows_whose_verdict_stands_near_its_limit_are_solved_in_nodes(run, tmp_path: Path) -> None:
     """Roelands' closure may be off by 2.4 % of a load below M = 2: a limit within that of the largest load of
     a flank is asked of nodes, one farther off is not."""

@@ -63,6 +63,7 @@ def fitted(said: str, key: str = "gear.drag_scale") -> list[float]:
     return [float(number) for number in re.findall(r"(?<![\w.])[\d.]+(?:e-?\d+)?(?![\d.%])", line)]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("column", ("drag_torque", "film_force_rms"))
 def test_a_scale_is_found_again(column: str, pair: Path, tmp_path: Path) -> None:
     path = measure(pair, column, told(pair, column))
@@ -76,6 +77,7 @@ def test_a_scale_is_found_again(column: str, pair: Path, tmp_path: Path) -> None
         assert float(row["computed"]) == pytest.approx(float(row[column]), rel=1e-3)
 
 
+@pytest.mark.long
 def test_an_interval_holds_the_scale_behind_scattered_numbers(pair: Path, tmp_path: Path) -> None:
     """Torques off by some per cent up and down."""
     scatter = (1.05, 0.96, 1.02, 0.97, 1.03, 0.99, 0.98)
@@ -87,6 +89,7 @@ def test_an_interval_holds_the_scale_behind_scattered_numbers(pair: Path, tmp_pa
     assert low < value < high and low < SCALE < high and high / low < 1.1
 
 
+@pytest.mark.long
 def test_a_scale_between_rattling_points_and_others(pair: Path, tmp_path: Path) -> None:
     verdicts = told(pair, "verdict")
     rattles = [int("impacts" in verdict) for verdict in verdicts]

@@ -66,6 +66,7 @@ def test_class_colours_differ_in_lightness():
     assert min(np.diff(levels)) > 0.1
 
 
+@pytest.mark.long
 def test_maps_of_columns_words_and_numbers(whole):
     columns = ["film_minimum", "status", "verified", "harmonic_count", "harmonic_3"]
     done = draw(whole, "--columns", ",".join(columns), "--x", SPEED, "--contours", "damping")
@@ -81,6 +82,7 @@ def test_same_campaign_gives_the_same_bytes(whole):
     assert first == {path.name: path.read_bytes() for path in output.iterdir()}
 
 
+@pytest.mark.long
 def test_slice_names_the_nearest_grid_point(deep):
     done = draw(deep, "--slice", f"{VISCOSITY}=0.25")
     assert done.returncode == 0
@@ -132,6 +134,7 @@ def test_gaps_are_named_by_their_status(tmp_path):
     assert len(set(hatches)) == len(hatches)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("made", [sample(failures=True), csv_table()], ids=["sample", "csv"])
 def test_a_campaign_that_is_no_grid_is_drawn_as_dots(tmp_path, made):
     path = made.write(tmp_path / "a.rattle")
@@ -172,6 +175,7 @@ def test_summary_page_says_where_verifications_fail(run, repository, tmp_path):
     assert stems(tmp_path / "out") == ["map_summary"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("keys", [(FORCES,), (FORCES, SPEEDS), (FORCES, SPEEDS, VISCOSITIES)])
 def test_summary_page_and_inputs_of_the_worst_scenes(tmp_path, keys):
     path = grid(*keys).write(tmp_path / "map.rattle")

@@ -90,6 +90,7 @@ def test_a_motion_starts_again_by_its_film_and_velocity(run, repository: Path, t
             assert told[name] == pytest.approx(getattr(row, name), rel=1e-5)
 
 
+@pytest.mark.long
 def test_an_independent_solver_stays_on_each_motion(two_motions: Path) -> None:
     """scipy's Radau method on the equations of springs and Reynolds films, from the told state."""
     told = summary_of(two_motions / "results" / "two_motions.summary.nml")
@@ -179,6 +180,7 @@ def test_starts_end_early_on_a_known_irregular_motion(run, repository: Path, tmp
             assert "subharmonic" in told["motions_text"] and "; of 28 starts" in told["motions_text"]
 
 
+@pytest.mark.long
 def test_a_motion_of_six_periods_is_told_once(run, repository: Path, tmp_path: Path) -> None:
     """From rest it is known to a window of four periods; the unstable motion of three is beside it."""
     text = (repository / "input" / "gearbox_map.nml").read_text()

@@ -125,6 +125,7 @@ HARD = """
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("text", "multiplier", "error"),
     # The second one by differences of 1e-3 and of 1e-5: the same to 1e-3.
@@ -155,6 +156,7 @@ CROSSING = """
 """
 
 
+@pytest.mark.long
 def test_a_multiplier_is_the_rate_at_which_motions_approach_each_other(run, tmp_path: Path) -> None:
     (tmp_path / "one.nml").write_text(CROSSING)
     assert run("one.nml", cwd=tmp_path).returncode == 0

@@ -110,6 +110,7 @@ def assert_cells(error: str, number: str, bound: float) -> None:
     assert len(digits(told)) <= 2
 
 
+@pytest.mark.long
 def test_errors_in_reports(solved):
     names = {quantity.meaning.rstrip("."): name for name, quantity in rattle.codes.QUANTITIES.items()}
     for path in solved:

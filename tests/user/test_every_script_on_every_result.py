@@ -157,6 +157,7 @@ def interrupt(rattle: Path, folder: Path, scene_text) -> None:
     assert process.wait(600) == 128 + signal.SIGTERM
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", WORKING)
 def test_scripts_do_their_work_or_say_why_not(kind, results, tmp_path):
     place = results / (kind if kind.endswith((".nml", ".state", ".log")) else f"{kind}.rattle")
@@ -178,6 +179,7 @@ def test_scripts_do_their_work_or_say_why_not(kind, results, tmp_path):
     assert sorted(worked) == sorted(WORKING[kind])
 
 
+@pytest.mark.long
 def test_without_kernels_scripts_work_or_name_what_is_missing(results, tmp_path):
     """In a copy of the scripts that nobody built the kernels for, made as `cp -r` does: a link stays one."""
     copy = tmp_path / "scripts"

@@ -163,6 +163,7 @@ def differences(
     ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("base", BASES)
 def test_rows_with_one_key_changed(base: str, values, rattle: Path, place: Path) -> None:
     """Of keys that inputs share, the first of these; but what most follows from is varied in each."""

@@ -34,6 +34,7 @@ def test_ranges_are_wide_and_bounded(keys) -> None:
     assert bounded["radius"] == (1e-10, 1e7) and bounded["mass"] == (1e-10, 1e9)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "title",
     ["published", "exact piezo", "newmark", "sweep", "film", "film of groups", "campaign", "threshold"],

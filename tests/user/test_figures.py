@@ -30,6 +30,7 @@ def piezo(tmp_path) -> Path:
     return write_motion(tmp_path / "creep.rattle", lines=LINES, law="piezo-viscous")
 
 
+@pytest.mark.long
 def test_one_run_of_each_law_gives_the_set_of_the_paper(iso, piezo, tmp_path):
     output = tmp_path / "figures"
     done = call_script("plot.py", "motion", iso, piezo, "--output", output)

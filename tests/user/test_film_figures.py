@@ -28,6 +28,7 @@ def film(tmp_path) -> Path:
     return write_points(tmp_path / "film.rattle", np.geomspace(35e-6, 140e-6, 21), groups)
 
 
+@pytest.mark.long
 def test_a_film_task_gives_the_figures_of_the_paper(film, tmp_path):
     done = call_script("plot.py", "film", film, "--output", tmp_path / "figures")
     assert done.returncode == 0, done.stderr

@@ -7,9 +7,12 @@ import re
 import subprocess
 from pathlib import Path
 
+import pytest
+
 import rattle as package
 
 
+@pytest.mark.long
 def test_the_way_from_a_drawing_to_a_map(rattle: Path, repository: Path, tmp_path: Path) -> None:
     """All commands in their order, from a folder that is as the repository; the map with fewer values."""
     page = (repository / "input" / "FIRST_MAP.md").read_text()

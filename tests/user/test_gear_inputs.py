@@ -216,6 +216,7 @@ KEYS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("key", KEYS)
 def test_a_row_is_the_single_scene_with_that_value(key: str, run, tmp_path: Path) -> None:
     base = PAIR.replace("backlash = 1e-4", "backlash = 1e-4, centre_distance = 0.0701")
@@ -529,6 +530,7 @@ def test_newmark_asks_for_rigid_teeth_of_a_gear(run, tmp_path: Path) -> None:
     assert run("--check", "-", cwd=tmp_path, stdin=rigid).returncode == 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("temperature", (-30, 0, 40, 100))
 def test_check_expects_the_law_that_the_motion_asks_for(temperature: int, check, run, tmp_path) -> None:
     """Impacts of a gear that leaves its flank are below those without oil, which no other load is."""

@@ -133,6 +133,7 @@ def force_of(folder: Path, name: str, periods: int) -> np.ndarray:
     return (mass * np.array(result["acceleration"]) + np.array(result["applied_force"]))[-samples:]
 
 
+@pytest.mark.long
 def test_pairs_that_repeat_and_one_that_does_not_are_summed_on_one_axis(
     run, repository: Path, tmp_path: Path
 ) -> None:
@@ -371,6 +372,7 @@ def test_names_are_usable_as_files(run, tmp_path: Path) -> None:
     assert_faults(ended.stderr.splitlines(), "bad.nml", [expected])
 
 
+@pytest.mark.long
 def test_ready_gearbox_has_a_map(run, repository: Path, tmp_path: Path) -> None:
     ready = repository / "input" / "gearbox_map.nml"
     ended = run(ready, "--set", "campaign.count=3,3", "--output", tmp_path, cwd=tmp_path)
@@ -416,6 +418,7 @@ def test_all_pairs_stand_together_in_one_figure(solve, tmp_path: Path) -> None:
     assert refused.returncode == 2 and "--together draws the maps of a grid campaign" in refused.stderr
 
 
+@pytest.mark.long
 def test_the_page_on_all_pairs_names_them_and_the_most_severe(solve, tmp_path: Path) -> None:
     solve("box", BOTH)
     solve("axes", campaign_text(FIRST + FOURTH, GRID))

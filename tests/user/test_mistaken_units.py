@@ -145,6 +145,7 @@ def test_log_summary_and_report_tell_it(run, tmp_path: Path) -> None:
     assert "28.07 deg if it was meant in rad." in read_page(page).words
 
 
+@pytest.mark.long
 def test_campaigns_and_gearboxes_tell_it(run, tmp_path: Path) -> None:
     """The report of a gearbox once, with the pairs that it is about; that of a campaign as its log."""
     odd = PAIR.replace("28.96", "0.49")
@@ -199,6 +200,7 @@ def test_the_acceleration_of_a_gear_is_said_to_be_relative_to_its_shaft(
         )
 
 
+@pytest.mark.long
 def test_no_ready_input_and_no_reference_is_odd(run, repository: Path, tmp_path: Path) -> None:
     """The pairs whose contacts are computed apart in test_gear.f90, and every ready scene."""
     (tmp_path / "first.nml").write_text(PAIR.replace("900.0", "800.0"))

@@ -193,6 +193,7 @@ def box(run, repository, tmp_path_factory) -> rattle.Campaign:
     return rattle.read_campaign(folder / "gearbox_map.rattle")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("narrow", (False, True))
 def test_words_of_gear_pairs(box, narrow):
     rows = box

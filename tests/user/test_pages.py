@@ -431,6 +431,7 @@ COLUMNS = {
 }
 
 
+@pytest.mark.long
 def test_the_page_of_a_gearbox_is_its_table(run, repository, tmp_path):
     assert run(repository / "input" / "gearbox.nml", "--output", tmp_path, cwd=tmp_path).returncode == 0
     box = rattle.read_summary(tmp_path / "gearbox.summary.nml")

@@ -85,6 +85,7 @@ def test_a_summary_knows_its_profiles(solved: Path, tmp_path: Path) -> None:
         package.read(tmp_path / "one.profiles.rattle")["pressure"].sum()
 
 
+@pytest.mark.long
 def test_figure_and_moving_picture_show_them(solved: Path, tmp_path: Path) -> None:
     result = package.read(solved / "one.rattle")
     shown = profiles.most_loaded(profiles.profiles_of(result))

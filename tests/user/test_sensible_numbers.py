@@ -31,6 +31,7 @@ def test_odd_number_is_taken_with_a_warning(
     assert f"  {warning}" in (tmp_path / "results" / "scene.log").read_text()
 
 
+@pytest.mark.long
 def test_sensible_numbers_have_no_warning(run, scene_text, repository: Path, tmp_path: Path) -> None:
     (tmp_path / "scene.nml").write_text(scene_text())
     ready = sorted((repository / "input").glob("*.nml"))

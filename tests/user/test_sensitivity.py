@@ -56,6 +56,7 @@ def table_of(said: str, quantity: str) -> dict[str, list[float]]:
     return {key: list(map(float, numbers)) for key, *numbers in rows}
 
 
+@pytest.mark.long
 def test_indices_of_a_product(run, tmp_path: Path) -> None:
     """inertia_ratio is force_scale over drag_scale times a constant: its indices are known in closed form."""
     result = designed(run, tmp_path, 256)

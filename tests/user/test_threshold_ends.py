@@ -78,6 +78,7 @@ def set_to(**settings: object) -> list[str]:
     ]
 
 
+@pytest.mark.long
 def test_ends_are_the_folds_of_pseudo_arclength_continuation(found, tmp_path: Path) -> None:
     """Both sides end at folds of one branch, each to 1e-6 of the force that of another continuation."""
     rows = found().frame()
@@ -190,6 +191,7 @@ def test_a_motion_that_passes_a_level_smoothly_ends_there(found, alone) -> None:
     np.testing.assert_allclose(told["acceleration_rms"], 10.0, rtol=1e-6)
 
 
+@pytest.mark.long
 def test_bytes_depend_on_no_threads_parts_or_cuts(run, rattle, found, tmp_path: Path) -> None:
     values = {"vary": "'lubricant.viscosity'", "values(:, 1)": "0.003, 0.006, 0.012"}
     found("--threads", "1", threshold={"tolerance": "1e-3"}, campaign=values)
@@ -235,6 +237,7 @@ def test_joined_parts_have_the_ends_of_the_undivided_run(run, found, tmp_path: P
     assert digest(tmp_path / "joined.rattle") == digest(tmp_path / "results" / "scene.rattle")
 
 
+@pytest.mark.long
 def test_motions_that_do_not_repeat_end_to_the_width_of_a_bracket(
     run, repository: Path, tmp_path: Path
 ) -> None:

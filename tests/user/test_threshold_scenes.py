@@ -167,6 +167,7 @@ def test_ends_of_motions_longer_than_a_period(criterion, run, scene_text, tmp_pa
     assert found == [] and crossings >= 2
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "criterion",
     ("class", "verdict", "double_sided", "impacts_per_period_coast", "coast_film_minimum", "load_maximum"),
@@ -177,6 +178,7 @@ def test_ends_between_two_flanks_that_give(criterion, run, scene_text, tmp_path:
     assert found == [] and crossings >= 2
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("criterion", ("idle", "impacts", "double_sided"))
 def test_ends_of_a_box(criterion, run, repository: Path, tmp_path: Path) -> None:
     """Each pair of the ready thresholds of a box, over a coarser scan, at a speed."""

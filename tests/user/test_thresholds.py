@@ -493,6 +493,7 @@ def test_lines_that_are_no_scenes(run, found, scene_text, tmp_path: Path) -> Non
     assert ((first["lower"] <= -weight) & (-weight <= first["upper"])).all()
 
 
+@pytest.mark.long
 def test_every_gear_of_a_box_has_its_curve(run, repository: Path, tmp_path: Path) -> None:
     """The thresholds of a pair in a box are those of its campaign alone; the figure names the pairs."""
     text = (repository / "input" / "gearbox_map.nml").read_text().partition("&campaign")[0]
