@@ -35,7 +35,8 @@ module scene_report
    !> Acceleration of level 0 dB, by ISO 1683 [m/s2]
    real(dp), parameter :: level_reference = 1.0e-6_dp
 
-   public :: acceleration_words, report_head, report_start, report_ending, law_sentence, resolved_lines, speed_meaning
+   public :: acceleration_words, report_head, report_start, report_ending, law_sentence, resolved_lines, speed_meaning, &
+             verdict_sentence
 
 contains
 
@@ -298,6 +299,7 @@ contains
 
       iterations = 0.0_dp
       if (judged%count%steps > 0) iterations = quantity_value(quantity_iterations_per_step, judged)
+      if (judged%judged) call log%line('  '//verdict_sentence(judged))
       call log%line('  '//integer_text(judged%count%steps)//' steps in '//short_text(solve_seconds, 3)//' s, '// &
                     short_text(iterations, 3)//' iterations a step, '//integer_text(judged%count%cuts)// &
                     ' steps cut where the film law had no value')
@@ -328,7 +330,6 @@ contains
       character(:), allocatable :: warning
       integer :: limit
 
-      call log%line('  '//verdict_sentence(judged))
       associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest)
          call log%line('  film '//micrometres(lowest(seen_films(1))%value)//' to '//micrometres(highest(seen_films(1))%value)// &
                        ' um, acceleration '// &
@@ -394,6 +395,7 @@ contains
 
    !> What the tooth does in its gap, how sure that is, and how hard it is for the bearings.
    pure function verdict_sentence(judged) result(sentence)
+      !> A scene that could be judged
       type(judged_scene_t), intent(in) :: judged
       character(:), allocatable :: sentence
       real(dp) :: verified

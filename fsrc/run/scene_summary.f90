@@ -13,7 +13,7 @@ module scene_summary
                       part_scene, part_window, quantity_code, quantity_film_regime, quantity_harmonics, quantity_law_contradicted, &
                          quantity_orbit_period, quantity_t, quantity_table, quantity_word
    use result_checksum, only: checksum_of_new_result
-   use scene_report, only: acceleration_words, speed_meaning
+   use scene_report, only: acceleration_words, speed_meaning, verdict_sentence
    use scene_status, only: is_success, status_name, status_no_rigid_film, status_not_written, status_sentence
    use scene_types, only: scene_t, task_film
    use summary_file, only: summary_t
@@ -48,6 +48,7 @@ contains
       type(summary_t) :: summary
       integer :: i
 
+      if (judged%judged) call summary%add('verdict_text', verdict_sentence(judged))
       call add_head(summary, scene, judged%status, judged%time)
       call add_results(summary, results, judged%status)
       do i = 1, merge(0, size(motions), judged%status == status_not_written)

@@ -182,6 +182,16 @@ def test_figure_10_ends_behind_the_last_line_that_counts_or_is_near(tmp_path, la
     assert linear.get_xlim() == (0.0, end)
 
 
+def test_spectra_of_several_runs_end_at_the_same_frequency(tmp_path, idle):
+    """Those of one call can be held against each other: all end where the widest one does."""
+    wide = write_motion(tmp_path / "wide.rattle", lines={1.0: 5.0, 14.0: 0.1})
+    results = [rattle.read(path) for path in (idle, wide)]
+    with style.house_style():
+        made = dict(motion.single_figures(results, [7, 10], motion.Extent(4, None)))
+    ends = {stem: [axes.get_xlim() for axes in made[stem].axes] for stem in made if "10a" in stem}
+    assert len(ends) == 2 and all(limits == [(0.0, 14.5)] * 2 for limits in ends.values())
+
+
 def test_an_overlay_of_spectra_stands_side_by_side(idle, creep):
     for axes in figure(10, idle, creep).axes:
         assert_lines(axes, 0, LINES, -0.08)

@@ -84,6 +84,7 @@ def lines_of_motion(path: Path) -> list[str | None]:
         "  no natural frequency: small motions about the steady film are overdamped"
         if "steady_film" in told and "natural_frequency" not in told
         else None,
+        verdict_words(told) if "rattle_class" in told else None,
         f"  {told['steps']} steps in {ANY} s, {short(told.get('iterations_per_step', 0.0), 3)} iterations a "
         f"step, {told['steps_cut']} steps cut where the film law had no value",
         f"  {told['status']} at t = {short(told['status_time'], 6)} s, film "
@@ -105,7 +106,6 @@ def lines_of_window(told: Mapping[str, Any], given: Mapping[str, Any]) -> list[s
         f"{FITTING[told['film_regime']]} fits"
     )
     return [
-        verdict_words(told),
         f"  film {um(told['film_minimum'], 5).removesuffix(' um')} to {um(told['film_maximum'], 5)}, "
         f"acceleration {short(told['acceleration_minimum'], 5)} to "
         f"{short(told['acceleration_maximum'], 5)} m/s2{relative}",
@@ -128,9 +128,9 @@ def verdict_words(told: Mapping[str, Any]) -> str:
     rms = told["acceleration_rms"]
     level = f" ({short(20.0 * np.log10(rms / 1e-6), 4)} dB re 1e-6 m/s2)" if rms > 0.0 else ""
     force = short(told["film_force_rms"], 4)
-    return (
-        f"  {told['verdict']}{sure}: film force rms {force} N, acceleration rms {short(rms, 4)} m/s2{level}"
-    )
+    words = f"{told['verdict']}{sure}: film force rms {force} N, acceleration rms {short(rms, 4)} m/s2{level}"
+    assert next(iter(told)) == "verdict_text" and told["verdict_text"] == words
+    return f"  {words}"
 
 
 def class_words(told: Mapping[str, Any]) -> str:

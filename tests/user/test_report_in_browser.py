@@ -15,7 +15,7 @@ from matplotlib.image import imread
 from script_calls import call_script
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-WIDTHS = (1200, 480)
+WIDTHS = (1200, 400)
 # The page in a frame of a given width, and how wide its content is then.
 FRAME = """<!DOCTYPE html><meta charset="utf-8"><body style="margin:0">
 <iframe id="page" style="border:0;width:{width}px;height:{height}px" srcdoc="{page}"></iframe>

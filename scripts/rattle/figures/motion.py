@@ -128,13 +128,20 @@ def _animate(results: Sequence[Result], options: Namespace) -> None:
 
 def single_figures(
     results: Sequence[Result], numbers: Sequence[int | str], extent: Extent
-) -> Iterator[tuple[str, Figure]]:
+) -> list[tuple[str, Figure]]:
     """File stem, which ends with the scene's name, and figure for each result, in the order given."""
+    of_acceleration: list[Figure] = []
+    drawn: list[tuple[str, Figure]] = []
     for result, label in zip(results, style.run_labels(results), strict=True):
         stems = OF_PIEZO_VISCOUS if result.law == "piezo-viscous" else OF_OTHERS
         for number, stem in stems.items():
             if number in numbers and _has(number, result):
-                yield f"{stem}_{style.file_part(label)}", _draw(number, [result], [label], extent)
+                figure = _draw(number, [result], [label], extent)
+                drawn.append((f"{stem}_{style.file_part(label)}", figure))
+                if number == 10:
+                    of_acceleration.append(figure)
+    spectra.share_ranges(of_acceleration)
+    return drawn
 
 
 def _has(number: int | str, result: Result) -> bool:

@@ -175,6 +175,16 @@ def draw_acceleration(
     return figure
 
 
+def share_ranges(figures: Sequence[Figure]) -> None:
+    """Let figures by draw_acceleration that show the same frequencies end at the same one."""
+    ends: dict[str, float] = {}
+    for figure in figures:
+        panel = figure.axes[-1]
+        ends[panel.get_xlabel()] = max(ends.get(panel.get_xlabel(), 0.0), panel.get_xlim()[1])
+    for figure in figures:
+        figure.axes[-1].set_xlim(0.0, ends[figure.axes[-1].get_xlabel()])
+
+
 def _show_levels(axes: Axes) -> None:
     """Name the amplitudes of a logarithmic axis by their levels."""
     low, high = (20.0 * math.log10(end / REFERENCE) for end in axes.get_ylim())
