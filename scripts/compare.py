@@ -30,6 +30,8 @@ def lay_over(options: argparse.Namespace) -> None:
 
     if len(options.paths) != 1:
         raise command.CommandError("--measured needs one result: a campaign over shaft.speed_rpm.")
+    if options.markdown:
+        raise command.CommandError("--markdown is for the table of summaries, not for --measured.")
     orders.run(argparse.Namespace(**vars(options), result=options.paths[0]))
 
 

@@ -1,7 +1,7 @@
 !> Motions of the scenes of a campaign from other starts than rest: all scenes of a batch side by side, one start after the other.
 !> A start ends as soon as it has come to a motion that is known of its scene.
 module row_motions
-   use carried_loads, only: keep_by_contacts, kept_by_contacts
+   use starting_state, only: keep_by_contacts, kept_by_contacts
    use coexisting_motions, only: coexisting_motions_t, told_motion_t
    use engine, only: asks_for_same, motion_state_t, request_t
    use errors, only: error_t

@@ -99,7 +99,9 @@ contains
       do k = 1, size(brackets)
          associate (bracket => brackets(k))
             if (present(ends)) motion_ends = ends(:, k)
-            if (k > 1) crossing = merge(crossing, 0, bracket%lower%trace == brackets(max(1, k - 1))%lower%trace)
+            if (k > 1) then
+               if (brackets(k - 1)%lower%trace /= bracket%lower%trace) crossing = 0
+            end if
             if (is_crossing(bracket)) then
                crossing = crossing + 1
                outcome%crossings = outcome%crossings + 1_int64

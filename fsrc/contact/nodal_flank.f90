@@ -75,7 +75,7 @@ module nodal_flank
    real(dp), parameter :: return_share = 0.5_dp, pressure_share = 0.1_dp
 
    public :: begin_step, respond, correct_flank, finish_step, accept_step, stiffen, soften, may_soften, is_bent, rigid_gap, &
-             rigid_give, rigid_load, share_that_leaves_a_film
+             rigid_give, rigid_gap_by_film, rigid_load, share_that_leaves_a_film
 
 contains
 
@@ -134,7 +134,7 @@ contains
             by_film = by_film + flank%rate*by_velocity
             give = rigid_give(contact, film)
             miss = film - flank%gap(0) - flank%load(0)*give
-            slope = 1.0_dp - by_film*give + 2.0_dp/pi*flank%load(0)/film
+            slope = rigid_gap_by_film(film, flank%load(0)) - by_film*give
             flank%film_own = -miss/slope
             flank%film_with_gap = 1.0_dp/slope
             load = flank%load(0) + by_film*flank%film_own
@@ -203,6 +203,15 @@ contains
 
       rigid_give = contact%compliance - 4.0_dp/pi*log(width_factor*sqrt(2.0_dp*film))
    end function rigid_give
+
+   !> Slope of this gap in the film under a load [-].
+   elemental real(dp) function rigid_gap_by_film(film, load)
+      !> H and M [-]
+      real(dp), intent(in) :: film
+      real(dp), intent(in) :: load
+
+      rigid_gap_by_film = 1.0_dp + 2.0_dp/pi*load/film
+   end function rigid_gap_by_film
 
    !> Share of a correction of the gap after which there is still a film.
    pure real(dp) function share_that_leaves_a_film(flank, gap_change) result(share)
@@ -348,7 +357,7 @@ contains
       do j = 1, kept_times
          film = flank%film(j)
          do pass = 1, most_passes
-            step = (flank%gap(j) - rigid_gap(contact, film, flank%load(j)))/(1.0_dp + 2.0_dp/pi*flank%load(j)/film)
+            step = (flank%gap(j) - rigid_gap(contact, film, flank%load(j)))/rigid_gap_by_film(film, flank%load(j))
             film = max(film + step, 0.1_dp*film)
             if (abs(step) <= 1.0e-13_dp*film) exit
          end do

@@ -530,7 +530,8 @@ contains
       real(dp) :: slope, bend, twist, place, root, between
       integer :: i
 
-      i = maxloc(values, dim=1)
+      ! No list is empty, which compilers cannot know.
+      i = max(1, maxloc(values, dim=1))
       top = values(i)
       at = real(i, dp)
       if (i == 1 .or. i == size(values)) return

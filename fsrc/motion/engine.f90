@@ -4,7 +4,7 @@ module engine
    use clock, only: wall_seconds
    use errors, only: error_t
    use kinds, only: dp, int64
-   use carried_loads, only: initial_state
+   use starting_state, only: initial_state
    use motion_start, only: motion_start_t
    use problem, only: problem_t
    use repetition, only: longest_orbit, orbit_watch_t

@@ -22,7 +22,7 @@ contains
       type(lane_inner_t), intent(in) :: inner
       integer :: last
 
-      last = of_velocity + springs_of(lane, block)
+      last = of_velocity + carried_numbers(lane, block)
       allocate (state%numbers(numbers_of_lane(lane, block, inner)))
       call take_state(lane, block, inner, state%numbers)
       state%lienard_variable = state%numbers(of_velocity)
@@ -49,7 +49,7 @@ contains
       real(dp), intent(inout) :: state(:)
       integer :: springs
 
-      springs = springs_of(lane, block)
+      springs = carried_numbers(lane, block)
       state(of_film) = block%film(lane, 0)
       state(of_velocity) = block%lienard(lane, 0)
       state(of_drive_compression:of_velocity + springs) = block%compression(lane, :springs, 0)
@@ -61,7 +61,7 @@ contains
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
 
-      carried_numbers = springs_of(lane, block)
+      carried_numbers = merge(flanks_of(lane, block), 0, block%compliance(lane) > 0.0_dp)
    end function carried_numbers
 
    !> Numbers of the state of the motion in a lane.
@@ -70,7 +70,7 @@ contains
       type(lane_block_t), intent(in) :: block
       type(lane_inner_t), intent(in) :: inner
 
-      numbers_of_lane = of_velocity + springs_of(lane, block) + inner%count*flanks_of(lane, block)
+      numbers_of_lane = of_velocity + carried_numbers(lane, block) + inner%count*flanks_of(lane, block)
    end function numbers_of_lane
 
    !> Series of one of the carried numbers about the start of the step, scaled like films [-].
@@ -83,14 +83,6 @@ contains
 
       series = block%compression(lane, number, :)
    end function series_of_number
-
-   !> Springs of the motion in a lane.
-   pure integer function springs_of(lane, block)
-      integer, intent(in) :: lane
-      type(lane_block_t), intent(in) :: block
-
-      springs_of = merge(flanks_of(lane, block), 0, block%compliance(lane) > 0.0_dp)
-   end function springs_of
 
    !> Flanks of the motion in a lane.
    pure integer function flanks_of(lane, block)
@@ -109,7 +101,7 @@ contains
       type(lane_inner_t), intent(inout) :: inner
       integer :: springs
 
-      springs = springs_of(lane, block)
+      springs = carried_numbers(lane, block)
       block%film(lane, 0) = state(of_film)
       block%lienard(lane, 0) = state(of_velocity)
       block%compression(lane, :springs, 0) = state(of_drive_compression:of_velocity + springs)
@@ -125,7 +117,7 @@ contains
       real(dp) :: films(2)
 
       films = [state(of_film), block%backlash(lane) - state(of_film) + &
-               sum(state(of_drive_compression:of_velocity + springs_of(lane, block)))]
+               sum(state(of_drive_compression:of_velocity + carried_numbers(lane, block)))]
    end function films_of_lane
 
    !> The thinner one of them [-].

@@ -1,7 +1,7 @@
 !> Motion of a gear whose flanks bend under films solved in nodes of pressure: the gear at rest, its periods by the steps of module
 !> nodal_step, their samples, and when the motion repeats.
 module nodal_engine
-   use carried_loads, only: initial_state
+   use starting_state, only: initial_state
    use clock, only: wall_seconds
    use engine, only: checkpoint_t, ending_t, last_search_period, motion_watcher_t, motion_state_t, request_t, sample_sink_t, &
                      status_of_stop

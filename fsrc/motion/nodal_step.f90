@@ -263,13 +263,10 @@ contains
       real(dp), intent(in) :: one(:)
       !> Those of the other one
       real(dp), intent(in) :: other(:)
-      real(dp) :: films(2, 2)
+      real(dp) :: films(2, contact_count(problem))
 
-      distance = abs(one(of_velocity) - other(of_velocity))/fastest
-      films(1, :contact_count(problem)) = reshape(films_of(problem, reshape(one, [1, size(one)])), [contact_count(problem)])
-      films(2, :contact_count(problem)) = reshape(films_of(problem, reshape(other, [1, size(other)])), [contact_count(problem)])
-      distance = max(distance, maxval(abs(films(1, :contact_count(problem)) - films(2, :contact_count(problem))) &
-                                      /films(2, :contact_count(problem))))
+      films = films_of(problem, transpose(reshape([one, other], [size(one), 2])))
+      distance = max(abs(one(of_velocity) - other(of_velocity))/fastest, maxval(abs(films(1, :) - films(2, :))/films(2, :)))
    end function distance_of_states
 
    !> Weights of a step of some order, and of a prediction by some points.

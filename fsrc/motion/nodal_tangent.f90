@@ -4,11 +4,11 @@
 !> tolerance of a step over the distance. Histories of films and pressures are those of the neighbours too, and a neighbour that
 !> starts from pressures which do not belong to its gear has them right within a small part of a period.
 module nodal_tangent
-   use constants, only: pi
    use kinds, only: dp
    use nodal_film, only: balance_of_cells, central_film, changes_of_fourth_order, nodal_balance_t, rigid_pressures, &
                          smallest_film, solve_active, volumes_of
-   use nodal_flank, only: difference_times, kept_times, nodal_contact_t, nodal_flank_t, rigid_give, rigid_load, step_weights_t
+   use nodal_flank, only: difference_times, kept_times, nodal_contact_t, nodal_flank_t, rigid_gap_by_film, rigid_give, &
+                          rigid_load, step_weights_t
    implicit none(type, external)
    private
 
@@ -66,7 +66,7 @@ contains
                end do
             else
                do k = 1, neighbours
-                  change%film(1:, k) = change%gap(1:, k)/(1.0_dp + 2.0_dp/pi*film%load(1:)/film%film(1:))
+                  change%film(1:, k) = change%gap(1:, k)/rigid_gap_by_film(film%film(1:), film%load(1:))
                end do
             end if
          end associate
@@ -121,7 +121,7 @@ contains
 
       do j = 1, kept_times
          change%film(j, :) = (change%gap(j, :) + rigid_give(contact, flank%film(j))*change%load(j, :)) &
-                             /(1.0_dp + 2.0_dp/pi*flank%load(j)/flank%film(j))
+                             /rigid_gap_by_film(flank%film(j), flank%load(j))
       end do
    end subroutine soften_tangent
 
@@ -197,7 +197,7 @@ contains
          if (.not. exists) return
          by_film = by_film + flank%rate*by_velocity
          give = rigid_give(contact, flank%film(0))
-         slope = 1.0_dp - by_film*give + 2.0_dp/pi*load/flank%film(0)
+         slope = rigid_gap_by_film(flank%film(0), load) - by_film*give
          change%response(1, neighbours + 1) = 1.0_dp/slope
          do k = 1, neighbours
             associate (past => dot_product(weights%rate(1:), change%film(1:difference_times, k)))
@@ -229,7 +229,7 @@ contains
                                                   flank%pressures(:, 0) + share*state) - flank%film(0))/share
             else
                change%film(0, k) = state(1)
-               change%load(0, k) = (state(1)*(1.0_dp + 2.0_dp/pi*flank%load(0)/flank%film(0)) - change%gap(0, k)) &
+               change%load(0, k) = (state(1)*rigid_gap_by_film(flank%film(0), flank%load(0)) - change%gap(0, k)) &
                                    /rigid_give(contact, flank%film(0))
             end if
          end associate

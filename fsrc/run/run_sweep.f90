@@ -14,7 +14,7 @@ module run_sweep
    use kinds, only: dp, int64
    use log_file, only: log_t
    use output_place, only: log_path, result_path, summary_path
-   use carried_loads, only: keep_by_contacts, kept_by_contacts
+   use starting_state, only: keep_by_contacts, kept_by_contacts
    use problem, only: of_film, of_velocity
    use periodic_orbit, only: attracting_period, find_periodic_orbit
    use progress, only: progress_t

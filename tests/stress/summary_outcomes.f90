@@ -14,7 +14,7 @@
 !> failure. Where a row was asked for a verification, a wrong class is one only if it is verified. A value of a sweep is held
 !> against the truth as a row is.
 module summary_outcomes
-   use carried_loads, only: keep_by_contacts
+   use starting_state, only: keep_by_contacts
    use engine, only: motion_state_t, start_of
    use force, only: largest_oscillation
    use impact_reference, only: compared_harmonics, distance, find_orbit, impact_reference_t, possible_classes, solve_reference

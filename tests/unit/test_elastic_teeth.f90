@@ -14,7 +14,8 @@ module test_elastic_teeth
    use many_motions, only: solve_motions
    use node_extremes, only: seen_films, seen_loads, seen_position
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
-   use carried_loads, only: contact_films, gear_positions, initial_state
+   use carried_loads, only: contact_films, gear_positions
+   use starting_state, only: initial_state
    use problem, only: film_at_rest, films_at_rest, loads_at_rest, of_drive_compression, of_film, of_velocity, problem_of, &
       problem_t, static_load
    use quantities, only: quantity_damping_ratio, quantity_natural_frequency

@@ -93,6 +93,7 @@ def test_compare_draws_measured_cuts_alone(result: Path, tmp_path: Path) -> None
     (tmp_path / "bench.csv").write_text("speed_rpm,order_2\n800,1\n900,1\n")
     for arguments, words in (
         ((result, result, "--measured", "bench.csv"), "--measured needs one result"),
+        ((result, "--markdown", "--measured", "bench.csv"), "--markdown is for the table"),
         ((result, "--font-size", "8"), "--font-size is for the figure of --measured"),
         ((result, "--overwrite"), "--overwrite is for the figure of --measured"),
     ):
