@@ -119,9 +119,8 @@ contains
          call verify_in_nodes(scene, judged%resolved, judged%nodal, judged%periods, judged%repeats_after, window, &
                               judged%extremes, judged%severity, judged%impacts, judged%rattle, judged%verification)
       else if (scene%spectrum%verify) then
-         call verify_motion(scene, judged%resolved, judged%periods, window, judged%extremes, &
-                                               judged%severity, judged%impacts, judged%rattle, judged%verification, error, &
-                                               judged%orbit)
+         call verify_motion(scene, judged%resolved, ending, window, judged%extremes, judged%severity, judged%impacts, &
+                            judged%rattle, judged%verification, judged%orbit, error)
       end if
       judged%judged = .not. allocated(error)
    end subroutine judge

@@ -9,17 +9,19 @@ module verify_scene
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use kinds, only: dp
+   use known_motions, only: are_near
    use node_extremes, only: seen_pressure
    use nodal_step, only: nodal_choice_t
    use nodal_scene, only: solve_finer
    use vibration_severity, only: severity_of_record, vibration_severity_t
-   use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
+   use periodic_orbit, only: attracting_period, find_periodic_orbit, map_states, periodic_orbit_t
    use carried_loads, only: films_of
    use problem, only: problem_t
-   use rattle_class, only: classify_steps, class_irregular, class_irregular_so_far, note_known, note_orbit, rattle_verdict_t
+   use rattle_class, only: classify_steps, class_irregular, note_known, note_orbit, rattle_verdict_t
    use resolved_scene, only: request_of, resolved_scene_t
    use scene_status, only: is_success
    use scene_types, only: method_newmark, method_taylor, scene_t
+   use settled_motion, only: near_states
    use text_output, only: lock_texts, unlock_texts
    use window_class, only: classify_window
    use window_extremes, only: extremes_of_record, window_extremes_t
@@ -35,19 +37,19 @@ module verify_scene
    !> Error of a finer solution in nodes, in the unit that module verification multiplies by ten, over the accuracy of the scene
    real(dp), parameter :: finer_share = 0.03_dp
 
-   public :: verify_motion, verify_in_nodes, tighten, nearby_orbit
+   public :: verify_motion, verify_in_nodes, tighten, nearby_orbit, orbit_of
 
 contains
 
    !> Verification and periodic motion of a judged scene.
-   subroutine verify_motion(scene, resolved, periods, window, extremes, severity, impacts, verdict, verification, error, orbit)
+   subroutine verify_motion(scene, resolved, own, window, extremes, severity, impacts, verdict, verification, orbit, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> What follows from it
       type(resolved_scene_t), intent(in) :: resolved
-      !> Periods solved
-      integer, intent(in) :: periods
-      !> Window at their end
+      !> How it ended
+      type(ending_t), intent(in) :: own
+      !> Window at its end
       type(window_t), intent(in) :: window
       !> Its extremes, severity and impacts
       type(window_extremes_t), intent(in) :: extremes
@@ -57,12 +59,11 @@ contains
       type(rattle_verdict_t), intent(in) :: verdict
       !> Its verification
       type(verification_t), intent(out) :: verification
+      !> Periodic motion that it ends on, if there is one
+      type(periodic_orbit_t), intent(inout) :: orbit
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
-      !> Periodic motion at the end of the tighter run, if there is one
-      type(periodic_orbit_t), intent(inout), optional :: orbit
       type(ending_t) :: ending
-      type(periodic_orbit_t) :: found
       type(motion_state_t) :: start
       type(rattle_verdict_t) :: tight_verdict
       type(window_t) :: tight
@@ -73,18 +74,16 @@ contains
       call tighten(scene%solver%method, scene%solver%accuracy, accuracy, start%implicit)
       tight%periods = window%periods
       tight%samples_per_period = window%samples_per_period
-      call solve_whole_window(scene, resolved%problem, start, accuracy, periods, resolved%noise_floor_at(accuracy), tight, &
+      call solve_whole_window(scene, resolved%problem, start, accuracy, own%periods, resolved%noise_floor_at(accuracy), tight, &
                               tight_verdict, ending, error)
       if (allocated(error)) return
       if (.not. is_success(ending%status)) then
          verification = no_verification(doubt_t(doubt_tighter_ending, counts=[ending%status, 0]))
          return
       end if
-      if (present(orbit) .or. tight_verdict%class == class_irregular_so_far) then
-         found = nearby_orbit(resolved%problem, ending)
-         call note_orbit(tight_verdict, attracting_period(found))
-         if (present(orbit) .and. found%period > 0) orbit = found
-      end if
+      orbit = nearby_orbit(resolved%problem, ending)
+      call note_orbit(tight_verdict, attracting_period(orbit))
+      orbit = orbit_of(resolved%problem, own, orbit)
       call note_known(tight_verdict, verdict)
       unclosed = doubt_of_windows(resolved%problem, window%record, tight%record, resolved%noise_floor, &
                                   resolved%noise_floor_at(accuracy), verdict, tight_verdict, &
@@ -196,6 +195,30 @@ contains
       nearby_orbit = find_periodic_orbit(problem, ending%numbers, orbit_nearness)
       call lock_texts()
    end function nearby_orbit
+
+   !> The periodic motion that a scene ends on: that of its tighter solution, which is nearer to it, unless this has come to another
+   !> motion of the scene.
+   type(periodic_orbit_t) function orbit_of(problem, own, tight) result(orbit)
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      !> How the scene ended
+      type(ending_t), intent(in) :: own
+      !> Periodic motion of its tighter solution, or none
+      type(periodic_orbit_t), intent(in) :: tight
+      real(dp) :: states(size(own%numbers), 1)
+      integer :: period
+      logical :: mapped
+
+      orbit = tight
+      if (tight%period > 0) states(:, 1) = tight%state
+      do period = 1, tight%period
+         if (are_near(problem, near_states(problem), states(:, 1), own%numbers)) return
+         call unlock_texts()
+         call map_states(problem, 1, tight_accuracy, states, mapped)
+         call lock_texts()
+      end do
+      if (tight%period > 0) orbit = nearby_orbit(problem, own)
+   end function orbit_of
 
    !> Whether a motion stays irregular behind its window.
    subroutine look_behind(scene, problem, accuracy, noise_floor, judged, ending, doubt, error)
