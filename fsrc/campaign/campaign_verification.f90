@@ -1,14 +1,19 @@
-!> Which classes of a group of scenes stand: all of them solved again from their start, tighter and side by side, and every window
-!> held against the tighter one by the verification of the single scene.
+!> Which classes of a group of scenes stand: all of them solved again, tighter and side by side, and every window held against the
+!> tighter one by the verification of the single scene.
 !>
 !> A single scene that is solved until it is steady is held against the same periods from its start. In a campaign both solutions go
 !> on until the motion repeats, the tighter one within its own accuracy, and their forecasts may save different periods: the
 !> orbits are held against each other, beginning with whichever of their periods fits best.
+!>
+!> Two solutions of an irregular motion part whatever their digits. It is followed behind its window (module motion_behind), and the
+!> tighter solution is that of a window there.
 module campaign_verification
-   use doubt, only: doubt_samples, doubt_t, is_doubted
-   use verification, only: verification_t, compare_windows, doubt_behind, doubt_of_windows, windows_behind
+   use doubt, only: doubt_samples, doubt_t, first_doubt, is_doubted
+   use motion_behind, only: follow_behind
+   use verification, only: verification_t, compare_windows, doubt_of_windows
    use verify_scene, only: nearby_orbit, tighten
    use engine, only: motion_state_t, request_t, start_of
+   use errors, only: error_t
    use kinds, only: dp
    use node_extremes, only: seen_acceleration, seen_films, seen_loads, seen_net_load, seen_quantities
    use periodic_orbit, only: attracting_period
@@ -48,8 +53,9 @@ contains
       type(impact_agreement_t), intent(out), optional :: agree(:)
       type(request_t) :: tighter
       type(motion_state_t) :: starts(size(resolved))
-      integer, allocatable :: tested(:), irregular(:)
-      logical :: wants(seen_quantities), behind(size(resolved))
+      type(doubt_t) :: doubts(size(resolved))
+      integer, allocatable :: tested(:)
+      logical :: wants(seen_quantities)
       real(dp) :: noise(size(resolved))
       integer :: i, k
 
@@ -63,7 +69,10 @@ contains
       tighter = request
       starts = start_of(resolved%problem)
       call tighten(method_taylor, request%accuracy, tighter%accuracy, starts(1)%implicit)
-      starts%implicit = starts(1)%implicit
+      call start_behind(resolved, choices, request, group, pack(tested, group%verdicts(tested)%class == class_irregular), starts, &
+                        doubts, tight%error)
+      if (must_stop() .or. allocated(tight%error)) return
+      starts%implicit = starts%implicit .or. starts(1)%implicit
       noise = resolved%noise_floor_at(tighter%accuracy)
       wants = .false.
       wants(compared) = .true.
@@ -75,7 +84,6 @@ contains
       end if
       call classify_group(resolved(tested)%problem, choices(tested), noise(tested), tighter, tight)
       if (allocated(tight%error)) return
-      behind = .false.
       do k = 1, size(tested)
          if (must_stop()) return
          i = tested(k)
@@ -88,18 +96,38 @@ contains
                                     impacts_of_record(group%records(i), resolved(i)%problem%frequency), &
                                     extremes_of_record(tight%records(k)), &
                                     impacts_of_record(tight%records(k), resolved(i)%problem%frequency))
-         stands(i) = class_stands(resolved(i), choices(i), tighter, i, k, noise(i), group, tight)
-         behind(k) = stands(i) .and. group%verdicts(i)%class == class_irregular
+         stands(i) = class_stands(resolved(i), choices(i), tighter, i, k, noise(i), doubts(i), group, tight)
       end do
-      if (.not. any(behind)) return
-      irregular = pack([(k, k=1, size(tested))], behind(:size(tested)))
-      tested = tested(irregular)
-      call look_behind(resolved(tested)%problem, choices(tested), noise(tested), tighter, tested, &
-                       tight%endings(irregular)%motion_state_t, tight, stands)
    end subroutine verify_group
 
+   !> Starts of the tighter solutions of irregular motions: behind their windows, and where their last periods are sampled.
+   subroutine start_behind(resolved, choices, request, group, irregular, starts, doubts, error)
+      type(resolved_scene_t), intent(in) :: resolved(:)
+      type(spectrum_choice_t), intent(in) :: choices(:)
+      !> What was asked of the engine
+      type(request_t), intent(in) :: request
+      type(scene_group_t), intent(in) :: group
+      !> Places of the irregular motions
+      integer, intent(in) :: irregular(:)
+      !> Those of the others stay
+      type(motion_state_t), intent(inout) :: starts(:)
+      !> None where a motion stays irregular, nor for the others
+      type(doubt_t), intent(out) :: doubts(:)
+      !> Set if there is no memory for the samples that a class needs
+      type(error_t), allocatable, intent(out) :: error
+      type(motion_state_t) :: behind(size(irregular))
+      type(doubt_t) :: found(size(irregular))
+
+      behind = group%endings(irregular)%motion_state_t
+      call follow_behind(resolved(irregular), choices(irregular), request%sampled_periods, request%samples_per_period, behind, &
+                         found, error)
+      behind%periods = request%periods - request%sampled_periods
+      starts(irregular) = behind
+      doubts(irregular) = found
+   end subroutine start_behind
+
    !> Whether the class of a scene stands as far as its window tells.
-   logical function class_stands(resolved, choice, tighter, place, tight_place, tight_noise, group, tight)
+   logical function class_stands(resolved, choice, tighter, place, tight_place, tight_noise, behind, group, tight)
       type(resolved_scene_t), intent(in) :: resolved
       type(spectrum_choice_t), intent(in) :: choice
       !> What was asked of the tighter solution
@@ -109,6 +137,8 @@ contains
       integer, intent(in) :: tight_place
       !> Acceleration that the errors of the tighter solution explain [m/s2]
       real(dp), intent(in) :: tight_noise
+      !> Doubt behind the window, or none
+      type(doubt_t), intent(in) :: behind
       type(scene_group_t), intent(in) :: group
       type(scene_group_t), intent(in) :: tight
       type(verification_t) :: verification
@@ -124,7 +154,7 @@ contains
          unclosed = doubt_of_windows(problem, record, tight_record, resolved%noise_floor, tight_noise, verdict, tight_verdict, &
                                      too_few_samples, samples/tighter%samples_per_period, tight%endings(tight_place)%numbers, &
                                      choice%verification_tolerance)
-         class_stands = .not. is_doubted(unclosed)
+         class_stands = .not. is_doubted(first_doubt([unclosed, behind]))
          if (.not. class_stands) return
          same = same_phase(group%states(:samples, of_film, place), tight%states(:tight_samples, of_film, tight_place), &
                            tighter%samples_per_period, &
@@ -157,45 +187,5 @@ contains
          same = shifted
       end do
    end function same_phase
-
-   !> See that motions stay irregular behind their windows.
-   subroutine look_behind(problems, choices, noise_floors, request, place, states, group, stands)
-      !> The irregular motions
-      type(problem_t), intent(in) :: problems(:)
-      type(spectrum_choice_t), intent(in) :: choices(:)
-      real(dp), intent(in) :: noise_floors(:)
-      !> What was asked of them before
-      type(request_t), intent(in) :: request
-      !> Places of their answers
-      integer, intent(in) :: place(:)
-      !> Where they stand
-      type(motion_state_t), intent(in) :: states(:)
-      !> Work space
-      type(scene_group_t), intent(inout) :: group
-      logical, intent(inout) :: stands(:)
-      type(request_t) :: window
-      type(motion_state_t), allocatable :: starts(:)
-      integer, allocatable :: left(:)
-      logical :: wants(seen_quantities)
-      integer :: i, k
-
-      window = request_t(accuracy=request%accuracy, periods=request%sampled_periods, &
-                         samples_per_period=request%samples_per_period, sampled_periods=request%sampled_periods)
-      wants = .false.
-      allocate (left, source=[(i, i=1, size(problems))])
-      starts = states
-      do k = 1, windows_behind(window%periods)
-         starts%periods = 0
-         call solve_group(problems(left), starts, window, wants, group)
-         call classify_group(problems(left), choices(left), noise_floors(left), window, group, class_alone=.true.)
-         if (must_stop() .or. allocated(group%error)) return
-         do i = 1, size(left)
-            stands(place(left(i))) = .not. is_doubted(doubt_behind(k, group%endings(i)%status, group%verdicts(i)))
-         end do
-         starts = pack(group%endings(:size(left))%motion_state_t, stands(place(left)))
-         left = pack(left, stands(place(left)))
-         if (size(left) == 0) return
-      end do
-   end subroutine look_behind
 
 end module campaign_verification

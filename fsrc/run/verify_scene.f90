@@ -2,7 +2,8 @@
 !> method solved it first, sampled finely enough for its harmonics; and the periodic motion behind it with its Floquet
 !> multipliers.
 module verify_scene
-   use doubt, only: doubt_samples, doubt_t, doubt_tighter_ending, is_doubted
+   use doubt, only: doubt_samples, doubt_t, doubt_tighter_ending, first_doubt, is_doubted
+   use motion_behind, only: follow_behind
    use verification, only: verification_t, compare_windows, doubt_behind, doubt_of_impacts, doubt_of_windows, severity_error, &
       no_verification, windows_behind
    use engine, only: ending_t, motion_state_t, request_t, start_of
@@ -67,14 +68,25 @@ contains
       type(motion_state_t) :: start
       type(rattle_verdict_t) :: tight_verdict
       type(window_t) :: tight
-      type(doubt_t) :: unclosed
+      type(doubt_t) :: unclosed, unclosed_behind
       real(dp) :: accuracy
+      integer :: periods
+      logical :: irregular
 
       start = start_of(resolved%problem)
       call tighten(scene%solver%method, scene%solver%accuracy, accuracy, start%implicit)
       tight%periods = window%periods
       tight%samples_per_period = window%samples_per_period
-      call solve_whole_window(scene, resolved%problem, start, accuracy, own%periods, resolved%noise_floor_at(accuracy), tight, &
+      periods = own%periods
+      irregular = verdict%class == class_irregular
+      ! Two solutions of an irregular motion part whatever their digits: the tighter one is that of a window behind. That the motion
+      ! comes there from its start is left to be shown of Newmark's steps alone.
+      if (irregular .and. scene%solver%method == method_taylor) then
+         call go_behind(own%motion_state_t)
+         if (allocated(error)) return
+         periods = window%periods
+      end if
+      call solve_whole_window(scene, resolved%problem, start, accuracy, periods, resolved%noise_floor_at(accuracy), tight, &
                               tight_verdict, ending, error)
       if (allocated(error)) return
       if (.not. is_success(ending%status)) then
@@ -85,14 +97,14 @@ contains
       call note_orbit(tight_verdict, attracting_period(orbit))
       orbit = orbit_of(resolved%problem, own, orbit)
       call note_known(tight_verdict, verdict)
-      unclosed = doubt_of_windows(resolved%problem, window%record, tight%record, resolved%noise_floor, &
-                                  resolved%noise_floor_at(accuracy), verdict, tight_verdict, &
-                                  doubt_of_samples(scene, verdict, tight, tight_verdict), window%periods, ending%numbers, &
-                                  scene%spectrum%verification_tolerance)
-      if (.not. is_doubted(unclosed) .and. verdict%class == class_irregular .and. tight_verdict%class == class_irregular) then
-         call look_behind(scene, resolved%problem, accuracy, resolved%noise_floor_at(accuracy), tight, ending, unclosed, error)
+      if (irregular .and. scene%solver%method == method_newmark .and. tight_verdict%class == class_irregular) then
+         call go_behind(ending%motion_state_t)
          if (allocated(error)) return
       end if
+      unclosed = first_doubt([doubt_of_windows(resolved%problem, window%record, tight%record, resolved%noise_floor, &
+                                  resolved%noise_floor_at(accuracy), verdict, tight_verdict, &
+                                  doubt_of_samples(scene, verdict, tight, tight_verdict), window%periods, ending%numbers, &
+                                  scene%spectrum%verification_tolerance), unclosed_behind])
       call compare_windows(films_of(resolved%problem, window%states), &
                            films_of(resolved%problem, tight%states), extremes, &
                            extremes_of_record(tight%record), verdict, tight_verdict, unclosed, scene%spectrum, &
@@ -100,6 +112,26 @@ contains
       verification%impacts = agreement_of(resolved%problem, extremes, impacts, extremes_of_record(tight%record), &
                                          impacts_of_record(tight%record, resolved%problem%frequency))
       verification%severity_error = severity_error(severity, severity_of_record(tight%record, resolved%problem%frequency), accuracy)
+
+   contains
+
+      !> See that the motion stays irregular behind its window, and go there.
+      subroutine go_behind(from)
+         !> Where the window ends
+         type(motion_state_t), intent(in) :: from
+         type(motion_state_t) :: behind(1)
+         type(doubt_t) :: found(1)
+
+         behind = from
+         call unlock_texts()
+         call follow_behind([resolved], [scene%spectrum], window%periods, window%samples_per_period, behind, found, error)
+         call lock_texts()
+         behind%implicit = behind%implicit .or. start%implicit
+         start = behind(1)
+         start%periods = 0
+         unclosed_behind = found(1)
+      end subroutine go_behind
+
    end subroutine verify_motion
 
    !> Verification of a scene whose films are solved in nodes: by twice as many of them and a tighter tolerance. Its window need not
@@ -219,42 +251,6 @@ contains
       end do
       if (tight%period > 0) orbit = nearby_orbit(problem, own)
    end function orbit_of
-
-   !> Whether a motion stays irregular behind its window.
-   subroutine look_behind(scene, problem, accuracy, noise_floor, judged, ending, doubt, error)
-      !> Checked scene
-      type(scene_t), intent(in) :: scene
-      !> What moves
-      type(problem_t), intent(in) :: problem
-      !> Relative accuracy of the solution [-]
-      real(dp), intent(in) :: accuracy
-      !> Amplitude that its errors explain [m/s2]
-      real(dp), intent(in) :: noise_floor
-      !> The window that was judged
-      type(window_t), intent(in) :: judged
-      !> Where it ends
-      type(ending_t), intent(in) :: ending
-      !> None if the motion stays irregular
-      type(doubt_t), intent(out) :: doubt
-      !> Set if there is not enough memory
-      type(error_t), allocatable, intent(out) :: error
-      type(motion_state_t) :: start
-      type(ending_t) :: last
-      type(window_t) :: window
-      type(rattle_verdict_t) :: verdict
-      integer :: i
-
-      last = ending
-      do i = 1, windows_behind(judged%periods)
-         window = window_t(periods=judged%periods, samples_per_period=judged%samples_per_period)
-         start = last%motion_state_t
-         start%periods = 0
-         call solve_whole_window(scene, problem, start, accuracy, judged%periods, noise_floor, window, verdict, last, error)
-         if (allocated(error)) return
-         doubt = doubt_behind(i, last%status, verdict)
-         if (is_doubted(doubt)) return
-      end do
-   end subroutine look_behind
 
    !> Whether a motion in nodes stays irregular behind the window of its finer solution.
    subroutine look_behind_in_nodes(scene, resolved, choice, ending, judged, doubt)
