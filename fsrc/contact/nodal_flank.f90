@@ -46,7 +46,7 @@ module nodal_flank
       logical :: in_nodes = .false.
       !> G, M, smallest film H and its rate of change H'
       real(dp), dimension(0:kept_times) :: gap = 0.0_dp, load = 0.0_dp, film = 0.0_dp, velocity = 0.0_dp
-      !> Film in the middle, which errors are judged by, and what is predicted of it
+      !> Film at the node in the middle, which errors are judged by, and what is predicted of it
       real(dp) :: centre(0:kept_times) = 0.0_dp, guessed_centre = 0.0_dp
       !> Largest pressure P, the film there, that where the gap is nearest without pressure, X = 0, and s, at the end of the step and
       !> at present
@@ -269,7 +269,7 @@ contains
          flank%centre(0) = films(2*((contact%grid%nodes + 1)/2))
          call find_largest_pressure(flank%pressures(:, 0), flank%peak(0), place)
          flank%film_at_peak(0) = film_at_place(films, place)
-         flank%middle(0) = films(contact%grid%nodes + 1)
+         flank%middle(0) = film_at_place(films, contact%grid%middle)
          flank%velocity(0) = dot_product(weights%rate, flank%film(0:difference_times))
       else
          flank%velocity(0) = dot_product(weights%rate, flank%film(0:difference_times))

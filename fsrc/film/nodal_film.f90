@@ -3,10 +3,12 @@
 !>     (H^3 F(P) P_X)_X/6 = H_X + H_T   where P > 0 ,      P >= 0 ,
 !>     H = G + M c + X^2/2 - (4/pi) integral of P ln|X - X'| dX' ,      M = integral of P dX .
 !>
-!> Nodes stand at equal distances in xi, X = S tan(xi) (1 + beta tan(xi)^2), from -pi/2 to pi/2, so that no inlet is cut off. Fluxes
-!> and films stand at the edges of cells between the nodes, and each cell balances what flows in, what flows out and what it holds.
-!> Between nodes the pressure is a cubic in xi, whose deflection is integrated without any error of its own. Where the film ruptures
-!> pressures are 0, and a cell there may lose oil but not gain any.
+!> Nodes stand at equal distances in xi, X = S (sigma + tan(xi) (1 + beta tan(xi)^2)), from -pi/2 to pi/2, so that no inlet is cut
+!> off. In oil of constant viscosity the film is thinnest and ruptures at the outlet, where sigma > 0 has the nodes closer: a rupture
+!> between two nodes is off by the square of their distance. Oil that pressure thickens needs them at its inlet as well.
+!> Fluxes and films stand at the edges of cells between the nodes, and each cell balances what flows in, what flows out and what it
+!> holds. Between nodes the pressure is a cubic in xi, whose deflection is integrated without any error of its own. Where the film
+!> ruptures pressures are 0, and a cell there may lose oil but not gain any.
 module nodal_film
    use constants, only: pi
    use elastohydrodynamic_closure, only: closure_t, thicken
@@ -20,6 +22,8 @@ module nodal_film
 
    !> beta
    real(dp), parameter :: spread_of_nodes = 1.0_dp
+   !> sigma in oil of constant viscosity
+   real(dp), parameter, public :: outlet_shift = 0.3_dp
 
    !> Grid, with all that follows from it and from c.
    type, public :: nodal_grid_t
@@ -36,6 +40,8 @@ module nodal_film
       real(dp), allocatable :: film_at_nodes(:, :)
       !> c [-]
       real(dp) :: compliance = 0.0_dp
+      !> X = 0: number of the node before it, and the share of the way to the next one
+      real(dp) :: middle = 0.0_dp
    end type nodal_grid_t
 
    !> Balance of the cells at some pressures.
@@ -75,18 +81,22 @@ module nodal_film
 contains
 
    !> Grid of some nodes.
-   pure type(nodal_grid_t) function grid_of(nodes, scale, compliance) result(grid)
+   pure type(nodal_grid_t) function grid_of(nodes, scale, compliance, shift) result(grid)
       integer, intent(in) :: nodes
       !> S > 0 [-]
       real(dp), intent(in) :: scale
       !> c [-]
       real(dp), intent(in) :: compliance
-      real(dp) :: step, bends(nodes), xi
+      !> sigma [-]; absent: 0
+      real(dp), intent(in), optional :: shift
+      real(dp) :: step, bends(nodes), xi, centre
       integer :: i, k
 
       grid%nodes = nodes
       grid%compliance = compliance
       step = pi/real(nodes + 1, dp)
+      centre = 0.0_dp
+      if (present(shift)) centre = shift
       allocate (grid%place(nodes), grid%edge(0:nodes), grid%stretch(0:nodes), grid%length(nodes), grid%bowl(nodes))
       allocate (grid%load(nodes), grid%film(0:nodes, nodes), grid%volume(nodes, nodes), grid%film_at_nodes(nodes, nodes))
       do i = 1, nodes
@@ -97,6 +107,12 @@ contains
          grid%edge(i) = place_of(xi)
          grid%stretch(i) = step*stretch_of(xi)
       end do
+      ! Newton's method for X = 0, which is exact to rounding after a few passes.
+      xi = 0.0_dp
+      do i = 1, 20
+         xi = xi - place_of(xi)/stretch_of(xi)
+      end do
+      grid%middle = (xi + 0.5_dp*pi)/step
       grid%length = grid%edge(1:) - grid%edge(:nodes - 1)
       grid%bowl = (grid%edge(1:) - grid%edge(:nodes - 1))*(grid%edge(1:)**2 + grid%edge(1:)*grid%edge(:nodes - 1) &
                                                            + grid%edge(:nodes - 1)**2)/6.0_dp
@@ -122,7 +138,7 @@ contains
          real(dp) :: t
 
          t = tan(angle)
-         place_of = scale*t*(1.0_dp + spread_of_nodes*t*t)
+         place_of = scale*(centre + t*(1.0_dp + spread_of_nodes*t*t))
       end function place_of
 
       !> dX/dxi.
@@ -430,7 +446,7 @@ contains
       end do
    end function volumes_of
 
-   !> Film in the middle of the contact, which follows all pressures smoothly.
+   !> Film at the node in the middle, which follows all pressures smoothly.
    pure real(dp) function central_film(grid, gap, pressures)
       type(nodal_grid_t), intent(in) :: grid
       !> G [-]

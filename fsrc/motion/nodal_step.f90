@@ -11,13 +11,14 @@ module nodal_step
    use engine, only: ending_t
    use force, only: force_at
    use kinds, only: dp, int64
-   use nodal_film, only: grid_of
+   use nodal_film, only: grid_of, outlet_shift
    use nodal_flank, only: accept_step, begin_step, correct_flank, difference_times, finish_step, is_bent, kept_times, &
                           may_soften, nodal_contact_t, nodal_flank_t, respond, share_that_leaves_a_film, soften, &
                           step_weights_t, stiffen
    use nodal_tangent, only: advance_tangent, nodal_tangent_t, soften_tangent, stiffen_tangent
    use problem, only: contact_count, has_two_flanks, largest_applied_force, of_film, of_velocity, problem_t, state_size
    use scene_status, only: status_film_cycles, status_film_torn
+   use scene_types, only: viscosity_constant
    implicit none(type, external)
    private
 
@@ -100,7 +101,8 @@ contains
          contact%oil = oil
          contact%bound = choice%bound
          contact%compliance = problem%contact%compliance*oil%load_unit/oil%film_unit
-         contact%grid = grid_of(choice%nodes, choice%scale, contact%compliance)
+         contact%grid = grid_of(choice%nodes, choice%scale, contact%compliance, &
+                                merge(outlet_shift, 0.0_dp, oil%viscosity_law == viscosity_constant))
          gear%film_unit = oil%film_unit
          gear%load_unit = oil%load_unit
          gear%time_unit = oil%film_unit/oil%velocity_unit

@@ -6,8 +6,8 @@ module test_nodal_film
    use elastohydrodynamic_closure, only: closure_steady_film, closure_t
    use kinds, only: dp
    use nodal_film, only: balance_of_cells, correct_pressures, film_at_place, films_along, films_at_nodes, find_largest_pressure, &
-                         grid_of, hertzian_pressure, nodal_balance_t, nodal_correction_t, nodal_grid_t, rigid_pressures, &
-                         shares_of_fourth_order, smallest_film, volumes_of
+                         grid_of, hertzian_pressure, nodal_balance_t, nodal_correction_t, nodal_grid_t, outlet_shift, &
+                         rigid_pressures, shares_of_fourth_order, smallest_film, volumes_of
    use nodal_flank, only: kept_times, nodal_contact_t, nodal_flank_t, rigid_gap, soften, stiffen
    use scene_types, only: viscosity_barus, viscosity_constant, viscosity_roelands
    implicit none(type, external)
@@ -25,6 +25,7 @@ contains
       call test_integrals(checks)
       call test_steady_table(checks)
       call test_literature(checks)
+      call test_shift(checks)
       call test_dry_contact(checks)
       call test_slopes(checks)
       call test_rupture(checks)
@@ -108,9 +109,9 @@ contains
       end do
    end subroutine solve_steady
 
-   !> Steady films against solutions that are extrapolated over 256, 512, 1024 nodes: gap, smallest film and largest pressure, and the
-   !> film there. Their error falls with the square of the number of nodes, as that of the place of rupture does. Films of M = 5 in oil of constant
-   !> viscosity have a narrow neck, which 32 nodes miss.
+   !> Steady films on the grid of a motion against solutions that are extrapolated over 256, 512, 1024 nodes: gap, smallest film and
+   !> largest pressure, and the film there. Their error falls with the square of the number of nodes, as that of the place of rupture
+   !> does.
    subroutine test_steady_table(checks)
       type(check_list_t), intent(inout) :: checks
       !> M, L, H0, smallest H, largest P, H there
@@ -134,7 +135,9 @@ contains
       do i = 1, size(table, 2)
          oil = oil_of(merge(viscosity_constant, viscosity_barus, table(2, i) <= 0.0_dp), table(2, i))
          do j = 1, 2
-            grid = grid_of(nodes(j), sqrt(2.0_dp*closure_steady_film(oil, table(1, i)) + 8.0_dp/pi*table(1, i)), 0.0_dp)
+            ! S of module nodal_scene
+            grid = grid_of(nodes(j), 1.6_dp*sqrt(2.0_dp*closure_steady_film(oil, table(1, i)) + 8.0_dp/pi*table(1, i)), 0.0_dp, &
+                           merge(outlet_shift, 0.0_dp, oil%viscosity_law == viscosity_constant))
             if (allocated(pressures)) deallocate (pressures)
             allocate (pressures(nodes(j)))
             call solve_steady(oil, grid, table(1, i), gap, pressures, solved)
@@ -144,9 +147,9 @@ contains
             call find_largest_pressure(pressures, peak, place)
             found = [gap/table(3, i), smallest_film(grid, gap, pressures)/table(4, i), peak/table(5, i), &
                      film_at_place(films_along(grid, gap, pressures), place)/table(6, i)]
-            tolerance = merge([0.006_dp, 0.006_dp, 0.01_dp, 0.01_dp], [0.0005_dp, 0.001_dp, 0.001_dp, 0.001_dp], j == 1)
-            if (table(1, i) > 4.0_dp) tolerance = merge([0.02_dp, 0.15_dp, 0.06_dp, 0.06_dp], [0.001_dp, 0.003_dp, 0.007_dp, &
-                                                                                              0.007_dp], j == 1)
+            tolerance = merge([0.007_dp, 0.007_dp, 0.018_dp, 0.025_dp], [0.0005_dp, 0.001_dp, 0.001_dp, 0.001_dp], j == 1)
+            if (table(1, i) > 4.0_dp) tolerance = merge([0.008_dp, 0.025_dp, 0.045_dp, 0.01_dp], &
+                                                        [0.001_dp, 0.001_dp, 0.008_dp, 0.003_dp], j == 1)
             do k = 1, 4
                call checks%check_close(found(k), 1.0_dp, tolerance(k), trim(name)//': '//trim(names(k)))
             end do
@@ -169,6 +172,25 @@ contains
       call solve_steady(oil_of(viscosity_barus, 5.677404_dp), grid, 1.563388_dp, gap, pressures, solved)
       call checks%check_close(smallest_film(grid, gap, pressures), 3.9074_dp, 0.004_dp, 'Kostreva''s problem')
    end subroutine test_literature
+
+   !> Nodes that are closer at the outlet leave the contact where it is.
+   subroutine test_shift(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(nodal_grid_t) :: grid
+      real(dp) :: gap, pressures(64), films(129), central(2)
+      real(dp), parameter :: shifts(2) = [0.0_dp, outlet_shift]
+      logical :: solved
+      integer :: i
+
+      do i = 1, 2
+         grid = grid_of(64, 4.0_dp, 0.0_dp, shifts(i))
+         call solve_steady(oil_of(viscosity_constant, 0.0_dp), grid, 1.0_dp, gap, pressures, solved)
+         films = films_along(grid, gap, pressures)
+         central(i) = film_at_place(films, grid%middle)
+      end do
+      call checks%check(grid%place(32) > 1.0_dp .and. grid%middle < 32.0_dp, 'nodes are closer at the outlet')
+      call checks%check_close(central(2)/central(1), 1.0_dp, 2.0e-3_dp, 'the film in the middle is that at X = 0')
+   end subroutine test_shift
 
    !> The pressure of a dry contact carries its load, and presses its flanks flat: its film is the same all over its width.
    subroutine test_dry_contact(checks)

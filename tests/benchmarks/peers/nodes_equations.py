@@ -5,9 +5,10 @@ anew from the equations, not from the program's kernels.
     H = G + c M + X^2/2 - (4/pi) integral of P ln|X - X'| dX',   M = integral of P dX,
     mu Z'' = M_1 - M_2 - F(T),   G_1 = Z,   G_2 = B - Z.
 
-Two discretisations in xi, X = S tan(xi) (1 + tan(xi)^2): *cubic*, the program's, with a cubic in xi
-between nodes and flows of fourth order away from the rupture, and *linear*, that of the prototype: hats
-in X with their exact logarithmic integrals, flows of second order, loads by the trapezium rule in xi.
+Two discretisations in xi, X = S tan(xi) (1 + tan(xi)^2): *cubic*, the program's but for where the middle
+of its grid stands, with a cubic in xi between nodes and flows of fourth order away from the rupture, and
+*linear*, that of the prototype: hats in X with their exact logarithmic integrals, flows of second order,
+loads by the trapezium rule in xi.
 """
 
 from __future__ import annotations
