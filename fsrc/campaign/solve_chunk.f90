@@ -1,7 +1,6 @@
 !> Solves and judges the scenes of a chunk: the kernels of the single scene, eight scenes to a register.
 module solve_chunk
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use campaign_verification, only: verify_group, compared
    use campaign_record, only: record_motions, record_number, record_row
    use automatic_model, only: nodes_stopped, reason_for_nodes, reason_t, scene_in_nodes, solve_in_memory
    use errors, only: error_t
@@ -11,6 +10,7 @@ module solve_chunk
    use key_table, only: find_key
    use force, only: force_of, largest_oscillation
    use grid_blocks, only: block_scenes
+   use group_verification, only: compared, verify_group
    use handed_motions, only: find_other_motions, hand_on_motions
    use kinds, only: dp, int64
    use memory_need, only: window_bytes
@@ -23,11 +23,12 @@ module solve_chunk
    use sampling, only: chunk_values, largest_value, method_grid, sample_plan_t
    use scene_group, only: classify_group, find_orbits, follow_group, scene_group_t, solve_group
    use scene_status, only: is_success, status_invalid
-   use scene_types, only: least_static_load, scene_t, spectrum_choice_t
+   use scene_types, only: least_static_load, method_taylor, scene_t, spectrum_choice_t
    use schedule, only: cost_order
    use signals, only: must_stop
    use varied_keys, only: is_valid_scene, set_varied_keys
-   use window_impacts, only: impact_agreement_t
+   use verification, only: verification_t
+   use window_impacts, only: impacts_of_record
    implicit none(type, external)
    private
 
@@ -41,11 +42,9 @@ module solve_chunk
    !> Samples of a batch; kept from chunk to chunk, since the system takes its time to hand out fresh memory.
    type, public :: chunk_space_t
       private
-      !> Scenes that are solved together, their tighter solutions, and whether their classes stand
+      !> Scenes that are solved together, their tighter solutions, and whether their classes and impacts stand
       type(scene_group_t) :: group, tight
-      logical, allocatable :: stands(:)
-      !> And whether their impacts are the same
-      type(impact_agreement_t), allocatable :: agree(:)
+      type(verification_t), allocatable :: verifications(:)
       !> The scene judged last; its arrays serve the next one
       type(judged_scene_t) :: judged
    end type chunk_space_t
@@ -205,7 +204,7 @@ contains
                                     needed, space, error)
             if (must_stop() .or. allocated(error)) return
             do i = 1, together
-               call judge_scene_of(space%group, i, resolved(group(i)), needed, space%stands(i), space%agree(i), space%judged)
+               call judge_scene_of(space%group, i, resolved(group(i)), needed, space%verifications(i), space%judged)
                call record_row(scene, first + int(group(i) - 1, int64), values(:, group(i)), space%judged, rows(:, group(i)))
                if (scene%film%automatic) then
                   reason = reason_for_nodes(space%judged, choices(group(i))%impact_limit)
@@ -316,9 +315,8 @@ contains
       !> Set if there is no memory for the samples of a scene
       type(error_t), allocatable, intent(out) :: error
 
-      if (allocated(space%stands)) deallocate (space%stands, space%agree)
-      allocate (space%stands(size(resolved)), source=.false.)
-      allocate (space%agree(size(resolved)))
+      if (allocated(space%verifications)) deallocate (space%verifications)
+      allocate (space%verifications(size(resolved)))
       associate (problems => resolved%problem)
          if (needed(needs_impacts)) then
             call solve_group(problems, starts, request, needed(:seen_quantities), space%group, choices%impact_limit)
@@ -334,9 +332,10 @@ contains
       if (allocated(space%group%error)) call move_alloc(space%group%error, error)
       if (must_stop() .or. allocated(error)) return
       if (needed(needs_verified_impacts)) then
-         call verify_group(resolved, choices, request, space%group, space%tight, space%stands, space%agree)
+         call verify_group(resolved, choices, method_taylor, request, space%group, space%tight, space%verifications, &
+                           impacts_of_record(space%group%records(:size(resolved)), resolved%problem%frequency))
       else if (needed(needs_verification)) then
-         call verify_group(resolved, choices, request, space%group, space%tight, space%stands)
+         call verify_group(resolved, choices, method_taylor, request, space%group, space%tight, space%verifications)
       end if
       if (allocated(space%tight%error)) call move_alloc(space%tight%error, error)
    end subroutine solve_side_by_side
@@ -393,7 +392,7 @@ contains
             call solve_side_by_side(resolved(group), from(group), choices(group), requests(group(1)), needed, space, error)
             if (must_stop() .or. allocated(error)) return
             do i = 1, together
-               call judge_scene_of(space%group, i, resolved(group(i)), needed, space%stands(i), space%agree(i), space%judged)
+               call judge_scene_of(space%group, i, resolved(group(i)), needed, space%verifications(i), space%judged)
                endings(group(i)) = space%group%endings(i)
                quantities(:, group(i)) = [(quantity_value(base%campaign%record(k), space%judged), &
                                            k=1, size(base%campaign%record))]
@@ -458,17 +457,15 @@ contains
    end subroutine note_ending
 
    !> What is known of a scene of a group.
-   pure subroutine judge_scene_of(group, place, resolved, needed, stands, agree, judged)
+   pure subroutine judge_scene_of(group, place, resolved, needed, verification, judged)
       !> The group, and the place of the scene in it
       type(scene_group_t), intent(in) :: group
       integer, intent(in) :: place
       type(resolved_scene_t), intent(in) :: resolved
       !> What the columns need
       logical, intent(in) :: needed(:)
-      !> Whether its class is verified, if that is needed
-      logical, intent(in) :: stands
-      !> And whether its impacts are the same
-      type(impact_agreement_t), intent(in) :: agree
+      !> Whether its class and its impacts are verified, if that is needed
+      type(verification_t), intent(in) :: verification
       type(judged_scene_t), intent(inout) :: judged
 
       call note_ending(resolved, group%endings(place), judged)
@@ -478,8 +475,8 @@ contains
       call note_record(group%records(place), judged)
       if (needed(needs_regime)) call note_regime(judged)
       judged%verification%exists = needed(needs_verification)
-      judged%verification%verified = stands
-      judged%verification%impacts = agree
+      judged%verification%verified = verification%verified
+      judged%verification%impacts = verification%impacts
    end subroutine judge_scene_of
 
 end module solve_chunk

@@ -22,12 +22,12 @@ module follow_starts
    use problem, only: of_film, of_velocity, problem_t, state_size
    use rattle_class, only: class_irregular, class_irregular_so_far, note_orbit, rattle_verdict_t
    use resolved_scene, only: request_of
+   use scene_orbit, only: nearby_orbit
    use scene_status, only: is_success, status_complete
    use scene_types, only: scene_t
    use settled_motion, only: known_of, same_motion, settled_motion_t
    use signals, only: must_stop
    use text_output, only: lock_texts, unlock_texts
-   use verify_scene, only: nearby_orbit
    use vibration_severity, only: severity_of_record, vibration_severity_t
    use window_extremes, only: extremes_of_record, window_extremes_t
    use window_impacts, only: impacts_of_record, verdict_of

@@ -1,12 +1,12 @@
 !> What becomes of motions that are off their harmonics: they repeat after several periods, they are irregular for good, or
 !> nothing more is known of them than that they are irregular so far. One procedure for single scenes, sweeps and campaigns.
 module irregular_motion
-   use verify_scene, only: nearby_orbit
    use engine, only: ending_t
    use lyapunov, only: follow_neighbours, parting_t, path_t
    use periodic_orbit, only: attracting_period, periodic_orbit_t
    use problem, only: problem_t
    use rattle_class, only: class_irregular_so_far, note_orbit, note_parting, rattle_verdict_t
+   use scene_orbit, only: nearby_orbit
    use scene_status, only: is_success
    use signals, only: must_stop
    use text_output, only: lock_texts, unlock_texts

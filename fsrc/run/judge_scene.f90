@@ -1,6 +1,6 @@
 !> Judges a solved scene: its window, class and regime, and how far they can be trusted.
 module judge_scene
-   use verify_scene, only: orbit_nearness, verify_in_nodes, verify_motion
+   use verify_scene, only: verify_in_nodes, verify_motion
    use controlled_engine, only: solve_window
    use engine, only: ending_t
    use errors, only: error_t
@@ -21,6 +21,7 @@ module judge_scene
    use rattle_class, only: class_irregular_so_far, classify_steps, note_orbit, note_parting, rattle_verdict_t
    use regime_check, only: check_regime
    use sample_recorder, only: sample_recorder_t
+   use scene_orbit, only: orbit_nearness
    use scene_status, only: is_success, status_steady
    use scene_types, only: model_resolved, scene_t
    use signals, only: must_stop

@@ -1,44 +1,37 @@
-!> Puts the verdict on a scene to the test: the same scene solved tighter by the error-controlled engine, whatever
-!> method solved it first, sampled finely enough for its harmonics; and the periodic motion behind it with its Floquet
-!> multipliers.
+!> Puts the verdict on a single scene to the test: a group of one, or in nodes of pressure; and the periodic motion behind it with its
+!> Floquet multipliers.
 module verify_scene
-   use doubt, only: doubt_samples, doubt_t, doubt_tighter_ending, first_doubt, is_doubted
-   use motion_behind, only: follow_behind
-   use verification, only: verification_t, compare_windows, doubt_behind, doubt_of_impacts, doubt_of_windows, severity_error, &
-      no_verification, windows_behind
-   use engine, only: ending_t, motion_state_t, request_t, start_of
-   use errors, only: error_t
-   use fine_window, only: solve_whole_window, window_t
-   use kinds, only: dp
-   use known_motions, only: are_near
-   use node_extremes, only: seen_pressure
-   use nodal_step, only: nodal_choice_t
-   use nodal_scene, only: solve_finer
-   use vibration_severity, only: severity_of_record, vibration_severity_t
-   use periodic_orbit, only: attracting_period, find_periodic_orbit, map_states, periodic_orbit_t
    use carried_loads, only: films_of
-   use problem, only: problem_t
-   use rattle_class, only: classify_steps, class_irregular, note_known, note_orbit, rattle_verdict_t
+   use doubt, only: doubt_t, doubt_tighter_ending, is_doubted
+   use engine, only: ending_t, request_t
+   use errors, only: error_t
+   use fine_window, only: window_t
+   use group_verification, only: tighten, verify_group
+   use kinds, only: dp
+   use nodal_scene, only: solve_finer
+   use nodal_step, only: nodal_choice_t
+   use node_extremes, only: seen_pressure
+   use periodic_orbit, only: periodic_orbit_t
+   use rattle_class, only: class_irregular, classify_steps, note_known, note_orbit, rattle_verdict_t
    use resolved_scene, only: request_of, resolved_scene_t
+   use scene_group, only: scene_group_t
+   use scene_orbit, only: orbit_of
    use scene_status, only: is_success
-   use scene_types, only: method_newmark, method_taylor, scene_t
-   use settled_motion, only: near_states
+   use scene_types, only: method_taylor, scene_t
    use text_output, only: lock_texts, unlock_texts
+   use verification, only: compare_windows, doubt_behind, doubt_of_impacts, no_verification, severity_error, verification_t, &
+      windows_behind
+   use vibration_severity, only: severity_of_record, vibration_severity_t
    use window_class, only: classify_window
    use window_extremes, only: extremes_of_record, window_extremes_t
    use window_impacts, only: agreement_of, impacts_of_record, window_impacts_t
    implicit none(type, external)
    private
 
-   !> Accuracy of the tighter solution: this, or a hundredth of the scene's own.
-   real(dp), parameter :: tight_accuracy = 1.0e-10_dp, tightest_accuracy = 1.0e-12_dp
-   !> A periodic motion farther away than this is not that of the scene [-].
-   real(dp), parameter, public :: orbit_nearness = 0.02_dp
-
    !> Error of a finer solution in nodes, in the unit that module verification multiplies by ten, over the accuracy of the scene
    real(dp), parameter :: finer_share = 0.03_dp
 
-   public :: verify_motion, verify_in_nodes, tighten, nearby_orbit, orbit_of
+   public :: verify_motion, verify_in_nodes
 
 contains
 
@@ -64,74 +57,34 @@ contains
       type(periodic_orbit_t), intent(inout) :: orbit
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
-      type(ending_t) :: ending
-      type(motion_state_t) :: start
-      type(rattle_verdict_t) :: tight_verdict
-      type(window_t) :: tight
-      type(doubt_t) :: unclosed, unclosed_behind
+      type(scene_group_t) :: group, tight
+      type(request_t) :: request
+      type(verification_t) :: verifications(1)
+      type(periodic_orbit_t) :: orbits(1)
       real(dp) :: accuracy
-      integer :: periods
-      logical :: irregular
+      logical :: implicit
 
-      start = start_of(resolved%problem)
-      call tighten(scene%solver%method, scene%solver%accuracy, accuracy, start%implicit)
-      tight%periods = window%periods
-      tight%samples_per_period = window%samples_per_period
-      periods = own%periods
-      irregular = verdict%class == class_irregular
-      ! Two solutions of an irregular motion part whatever their digits: the tighter one is that of a window behind. That the motion
-      ! comes there from its start is left to be shown of Newmark's steps alone.
-      if (irregular .and. scene%solver%method == method_taylor) then
-         call go_behind(own%motion_state_t)
-         if (allocated(error)) return
-         periods = window%periods
-      end if
-      call solve_whole_window(scene, resolved%problem, start, accuracy, periods, resolved%noise_floor_at(accuracy), tight, &
-                              tight_verdict, ending, error)
+      request = request_t(accuracy=scene%solver%accuracy, periods=own%periods, samples_per_period=window%samples_per_period, &
+                          sampled_periods=window%periods)
+      allocate (group%states(size(window%states, 1), size(window%states, 2), 1))
+      group%states(:, :, 1) = window%states
+      allocate (group%endings(1), source=own)
+      group%endings(1)%samples = size(window%states, 1)
+      allocate (group%records(1), source=window%record)
+      group%records(1)%lowest = extremes%lowest
+      group%records(1)%highest = extremes%highest
+      allocate (group%verdicts(1), source=verdict)
+      call verify_group([resolved], [scene%spectrum], scene%solver%method, request, group, tight, verifications, [impacts], orbits)
+      if (allocated(tight%error)) call move_alloc(tight%error, error)
       if (allocated(error)) return
-      if (.not. is_success(ending%status)) then
-         verification = no_verification(doubt_t(doubt_tighter_ending, counts=[ending%status, 0]))
-         return
-      end if
-      orbit = nearby_orbit(resolved%problem, ending)
-      call note_orbit(tight_verdict, attracting_period(orbit))
-      orbit = orbit_of(resolved%problem, own, orbit)
-      call note_known(tight_verdict, verdict)
-      if (irregular .and. scene%solver%method == method_newmark .and. tight_verdict%class == class_irregular) then
-         call go_behind(ending%motion_state_t)
-         if (allocated(error)) return
-      end if
-      unclosed = first_doubt([doubt_of_windows(resolved%problem, window%record, tight%record, resolved%noise_floor, &
-                                  resolved%noise_floor_at(accuracy), verdict, tight_verdict, &
-                                  doubt_of_samples(scene, verdict, tight, tight_verdict), window%periods, ending%numbers, &
-                                  scene%spectrum%verification_tolerance), unclosed_behind])
-      call compare_windows(films_of(resolved%problem, window%states), &
-                           films_of(resolved%problem, tight%states), extremes, &
-                           extremes_of_record(tight%record), verdict, tight_verdict, unclosed, scene%spectrum, &
-                           scene%spectrum%verification_tolerance, accuracy, resolved%noise_floor_at(accuracy), verification)
-      verification%impacts = agreement_of(resolved%problem, extremes, impacts, extremes_of_record(tight%record), &
-                                         impacts_of_record(tight%record, resolved%problem%frequency))
-      verification%severity_error = severity_error(severity, severity_of_record(tight%record, resolved%problem%frequency), accuracy)
-
-   contains
-
-      !> See that the motion stays irregular behind its window, and go there.
-      subroutine go_behind(from)
-         !> Where the window ends
-         type(motion_state_t), intent(in) :: from
-         type(motion_state_t) :: behind(1)
-         type(doubt_t) :: found(1)
-
-         behind = from
-         call unlock_texts()
-         call follow_behind([resolved], [scene%spectrum], window%periods, window%samples_per_period, behind, found, error)
-         call lock_texts()
-         behind%implicit = behind%implicit .or. start%implicit
-         start = behind(1)
-         start%periods = 0
-         unclosed_behind = found(1)
-      end subroutine go_behind
-
+      verification = verifications(1)
+      if (.not. is_success(tight%endings(1)%status)) return
+      orbit = orbits(1)
+      ! Newmark's method may be off by more than motions of a scene differ.
+      if (scene%solver%method == method_taylor) orbit = orbit_of(resolved%problem, own, orbits(1))
+      call tighten(scene%solver%method, scene%solver%accuracy, accuracy, implicit)
+      verification%severity_error = severity_error(severity, severity_of_record(tight%records(1), resolved%problem%frequency), &
+                                                    accuracy)
    end subroutine verify_motion
 
    !> Verification of a scene whose films are solved in nodes: by twice as many of them and a tighter tolerance. Its window need not
@@ -197,61 +150,6 @@ contains
       end associate
    end subroutine verify_in_nodes
 
-   !> How a scene is solved tighter.
-   pure subroutine tighten(method, own_accuracy, accuracy, by_collocation)
-      !> Code of its method
-      integer, intent(in) :: method
-      !> Relative accuracy that it was solved with [-]
-      real(dp), intent(in) :: own_accuracy
-      !> Relative accuracy of the tighter solution [-]
-      real(dp), intent(out) :: accuracy
-      !> Whether by the implicit method, whatever the film law
-      logical, intent(out) :: by_collocation
-
-      accuracy = tight_accuracy
-      by_collocation = .false.
-      if (method /= method_taylor) return
-      accuracy = min(accuracy, max(tightest_accuracy, 0.01_dp*own_accuracy))
-      ! Where there is no room for a tighter solution, another method tells the errors.
-      by_collocation = accuracy > 0.05_dp*own_accuracy
-   end subroutine tighten
-
-   !> The periodic motion at the end of a run, if there is one.
-   type(periodic_orbit_t) function nearby_orbit(problem, ending)
-      !> What moves
-      type(problem_t), intent(in) :: problem
-      !> Where its motion ended
-      type(ending_t), intent(in) :: ending
-
-      call unlock_texts()
-      nearby_orbit = find_periodic_orbit(problem, ending%numbers, orbit_nearness)
-      call lock_texts()
-   end function nearby_orbit
-
-   !> The periodic motion that a scene ends on: that of its tighter solution, which is nearer to it, unless this has come to another
-   !> motion of the scene.
-   type(periodic_orbit_t) function orbit_of(problem, own, tight) result(orbit)
-      !> What moves
-      type(problem_t), intent(in) :: problem
-      !> How the scene ended
-      type(ending_t), intent(in) :: own
-      !> Periodic motion of its tighter solution, or none
-      type(periodic_orbit_t), intent(in) :: tight
-      real(dp) :: states(size(own%numbers), 1)
-      integer :: period
-      logical :: mapped
-
-      orbit = tight
-      if (tight%period > 0) states(:, 1) = tight%state
-      do period = 1, tight%period
-         if (are_near(problem, near_states(problem), states(:, 1), own%numbers)) return
-         call unlock_texts()
-         call map_states(problem, 1, tight_accuracy, states, mapped)
-         call lock_texts()
-      end do
-      if (tight%period > 0) orbit = nearby_orbit(problem, own)
-   end function orbit_of
-
    !> Whether a motion in nodes stays irregular behind the window of its finer solution.
    subroutine look_behind_in_nodes(scene, resolved, choice, ending, judged, doubt)
       !> Checked scene
@@ -286,21 +184,5 @@ contains
       end do
       call lock_texts()
    end subroutine look_behind_in_nodes
-
-   !> Whether the samples are too few, and how many would do.
-   pure type(doubt_t) function doubt_of_samples(scene, verdict, tight, tight_verdict) result(doubt)
-      type(scene_t), intent(in) :: scene
-      type(rattle_verdict_t), intent(in) :: verdict
-      !> The tighter solution
-      type(window_t), intent(in) :: tight
-      type(rattle_verdict_t), intent(in) :: tight_verdict
-      logical :: would_do
-
-      doubt = doubt_t()
-      if (verdict%spectrum%sampling_sufficient .and. tight_verdict%spectrum%sampling_sufficient) return
-      would_do = tight_verdict%spectrum%sampling_sufficient .and. tight%classified_by > scene%solver%samples_per_period()
-      doubt = doubt_t(doubt_samples, counts=[merge(tight%classified_by, 0, would_do), &
-                                             merge(1, 0, scene%solver%method == method_newmark)])
-   end function doubt_of_samples
 
 end module verify_scene

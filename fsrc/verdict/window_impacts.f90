@@ -34,7 +34,7 @@ module window_impacts
 contains
 
    !> Impacts that the steps of the engine tell.
-   pure type(window_impacts_t) function impacts_of_record(record, frequency) result(impacts)
+   elemental type(window_impacts_t) function impacts_of_record(record, frequency) result(impacts)
       !> Record of the window that was asked for impacts
       type(window_record_t), intent(in) :: record
       !> Frequency of the force [Hz]

@@ -1,10 +1,10 @@
-!> Tests of the verification of rows: motions that repeat after several periods whose windows begin elsewhere, and motions that are
+!> Tests of the verification of groups: motions that repeat after several periods whose windows begin elsewhere, and motions that are
 !> irregular in their window and settle behind it.
-module test_campaign_verification
-   use campaign_verification, only: verify_group
+module test_group_verification
+   use group_verification, only: verify_group
    use canonical_scenes, only: canonical_scene
    use doubt, only: doubt_sentence, is_doubted
-   use verification, only: doubt_behind, windows_behind
+   use verification, only: doubt_behind, verification_t, windows_behind
    use checks, only: check_list_t
    use engine, only: request_t, start_of
    use kinds, only: dp
@@ -14,27 +14,27 @@ module test_campaign_verification
    use resolved_scene, only: resolve, resolved_scene_t
    use scene_group, only: classify_group, find_orbits, scene_group_t, solve_group
    use scene_status, only: status_complete, status_film_lost, status_steady
-   use scene_types, only: law_iso_viscous, scene_t, spectrum_choice_t
+   use scene_types, only: law_iso_viscous, method_taylor, scene_t, spectrum_choice_t
    implicit none(type, external)
    private
 
    integer, parameter :: samples_per_period = 64
    logical, parameter :: wants(seen_quantities) = .true.
 
-   public :: run_campaign_verification_tests
+   public :: run_group_verification_tests
 
 contains
 
    !> Runs every test of this topic.
-   subroutine run_campaign_verification_tests(checks)
+   subroutine run_group_verification_tests(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      call checks%start('campaign_verification')
+      call checks%start('group_verification')
       call test_windows_behind(checks)
       call test_doubt_behind(checks)
       call test_phase_of_an_orbit(checks)
       call test_behind_the_window(checks)
-   end subroutine run_campaign_verification_tests
+   end subroutine run_group_verification_tests
 
    !> Four windows at least, and 32 periods of them.
    subroutine test_windows_behind(checks)
@@ -98,7 +98,7 @@ call checks%check(doubt_sentence(doubt_behind(1, status_film_lost, verdict)) == 
       type(scene_group_t) :: group, tight
       type(request_t) :: request
       real(dp), allocatable :: states(:, :)
-      logical :: stands(1)
+      type(verification_t) :: verifications(1)
 
       request = request_t(accuracy=1.0e-6_dp, periods=400, samples_per_period=samples_per_period, sampled_periods=8, &
                           until_steady=.true.)
@@ -107,18 +107,18 @@ call checks%check(doubt_sentence(doubt_behind(1, status_film_lost, verdict)) == 
       associate (samples => group%endings(1)%samples)
          call checks%check(samples == 2*samples_per_period .and. group%verdicts(1)%class == class_subharmonic, &
                            'an orbit of two periods')
-         call verify_group(resolved, choices, request, group, tight, stands)
-         call checks%check(stands(1), 'as it was solved')
+         call verify_group(resolved, choices, method_taylor, request, group, tight, verifications)
+         call checks%check(verifications(1)%verified, 'as it was solved')
          states = group%states(:samples, :, 1)
          group%states(:samples, :, 1) = cshift(states, samples_per_period)
-         call verify_group(resolved, choices, request, group, tight, stands)
-         call checks%check(stands(1), 'beginning with the other period')
+         call verify_group(resolved, choices, method_taylor, request, group, tight, verifications)
+         call checks%check(verifications(1)%verified, 'beginning with the other period')
          group%endings(1)%status = status_complete
-         call verify_group(resolved, choices, request, group, tight, stands)
-         call checks%check(stands(1), 'known to repeat by the tighter solution alone')
+         call verify_group(resolved, choices, method_taylor, request, group, tight, verifications)
+         call checks%check(verifications(1)%verified, 'known to repeat by the tighter solution alone')
          group%states(:samples, :, 1) = cshift(states, samples_per_period/2)
-         call verify_group(resolved, choices, request, group, tight, stands)
-         call checks%check(.not. stands(1), 'half a period late it is another motion')
+         call verify_group(resolved, choices, method_taylor, request, group, tight, verifications)
+         call checks%check(.not. verifications(1)%verified, 'half a period late it is another motion')
       end associate
    end subroutine test_phase_of_an_orbit
 
@@ -141,7 +141,7 @@ call checks%check(doubt_sentence(doubt_behind(1, status_film_lost, verdict)) == 
          type(spectrum_choice_t) :: choices(1)
          type(scene_group_t) :: group, tight
          type(request_t) :: request
-         logical :: stands(1)
+         type(verification_t) :: verifications(1)
 
          request = request_t(accuracy=1.0e-6_dp, periods=periods, samples_per_period=samples_per_period, sampled_periods=8)
          call solve(speed, amplitude, request, resolved, choices, group)
@@ -149,10 +149,10 @@ call checks%check(doubt_sentence(doubt_behind(1, status_film_lost, verdict)) == 
          ! What is known of how neighbouring motions part is not what is asked here.
          group%verdicts%class = class_irregular
          group%verdicts%parting%for_good = .true.
-         call verify_group(resolved, choices, request, group, tight, stands)
-         call checks%check(stands(1) .eqv. expected, what)
+         call verify_group(resolved, choices, method_taylor, request, group, tight, verifications)
+         call checks%check(verifications(1)%verified .eqv. expected, what)
       end subroutine behind
 
    end subroutine test_behind_the_window
 
-end module test_campaign_verification
+end module test_group_verification

@@ -1,6 +1,5 @@
 !> Scenes that are solved side by side: the samples of their windows, what the steps tell of them, and their classes.
 module scene_group
-   use verify_scene, only: nearby_orbit
    use errors, only: error_t
    use engine, only: ending_t, motion_state_t, request_t, reserved_periods
    use finer_windows, only: classify_finer
@@ -14,6 +13,7 @@ module scene_group
    use periodic_orbit, only: periodic_orbit_t
    use problem, only: problem_t, state_size
    use rattle_class, only: note_orbit, rattle_verdict_t
+   use scene_orbit, only: nearby_orbit
    use scene_status, only: is_success
    use scene_types, only: spectrum_choice_t
    use signals, only: must_stop
@@ -33,6 +33,8 @@ module scene_group
       type(window_record_t), allocatable :: records(:)
       !> Classes of the motions that have a window
       type(rattle_verdict_t), allocatable :: verdicts(:)
+      !> Samples of a period that these are from; 0: integrals over the steps
+      integer, allocatable :: classified_by(:)
       !> Periods after which they repeat, by the engine or by a search at their ends; 0 where none is known
       integer, allocatable :: repeat_after(:)
       !> Where the motions went that are irregular
@@ -73,12 +75,12 @@ contains
       numbers = maxval(state_size(problems))
       if (allocated(group%states)) then
          if (size(group%states, 1) < samples .or. size(group%states, 2) /= numbers .or. size(group%states, 3) < n) &
-            deallocate (group%states, group%endings, group%records, group%verdicts, group%repeat_after, group%paths, &
-                        group%accelerations)
+            deallocate (group%states, group%endings, group%records, group%verdicts, group%classified_by, group%repeat_after, &
+                        group%paths, group%accelerations)
       end if
       if (.not. allocated(group%states)) &
          allocate (group%states(samples, numbers, n), group%endings(n), group%records(n), group%verdicts(n), &
-                   group%repeat_after(n), group%paths(n), group%accelerations(samples))
+                   group%classified_by(n), group%repeat_after(n), group%paths(n), group%accelerations(samples))
       blank%wants = wants
       do i = 1, n
          group%records(i) = blank
@@ -128,6 +130,7 @@ contains
                                           group%accelerations(:samples))
             call classify_window(choices(i), problems(i), samples/request%samples_per_period, group%accelerations(:samples), &
                                  group%records(i), noise_floors(i), verdict)
+            group%classified_by(i) = request%samples_per_period
             coarse(i) = .not. verdict%spectrum%sampling_sufficient
          end associate
       end do
@@ -139,6 +142,7 @@ contains
                              request%samples_per_period, group%endings(number)%samples/request%samples_per_period, &
                              group%records(number), finer, classified_by, only_class, group%error)
          group%verdicts(number) = finer
+         group%classified_by(number) = classified_by
       end if
       do i = 1, size(problems)
          if (has_window(group%endings(i))) call note_orbit(group%verdicts(i), group%endings(i)%orbit)

@@ -1,5 +1,5 @@
-!> Tests of what a tighter solution tells of a scene: of several motions the periodic one is that of the scene.
-module test_verify_scene
+!> Tests of the periodic motion that a scene ends on: of several that the scene has, its own.
+module test_scene_orbit
    use checks, only: check_list_t
    use engine, only: ending_t
    use errors, only: fault_list_t
@@ -9,7 +9,7 @@ module test_verify_scene
    use resolved_scene, only: resolve, resolved_scene_t
    use scene_texts, only: read_text
    use scene_types, only: scene_t
-   use verify_scene, only: nearby_orbit, orbit_of
+   use scene_orbit, only: nearby_orbit, orbit_of
    implicit none(type, external)
    private
 
@@ -29,17 +29,17 @@ module test_verify_scene
    !> Moduli of their largest Floquet multipliers
    real(dp), parameter :: moduli(2) = [0.5210_dp, 0.3481_dp]
 
-   public :: run_verify_scene_tests
+   public :: run_scene_orbit_tests
 
 contains
 
    !> Runs every test of this topic.
-   subroutine run_verify_scene_tests(checks)
+   subroutine run_scene_orbit_tests(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      call checks%start('verify_scene')
+      call checks%start('scene_orbit')
       call test_orbit_of_the_scene(checks)
-   end subroutine run_verify_scene_tests
+   end subroutine run_scene_orbit_tests
 
    !> Where the tighter solution has come to another motion, the periodic motion is that of the scene itself.
    subroutine test_orbit_of_the_scene(checks)
@@ -88,4 +88,4 @@ contains
       allocate (ending%numbers, source=image(:, 1))
    end function settled
 
-end module test_verify_scene
+end module test_scene_orbit
