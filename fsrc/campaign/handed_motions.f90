@@ -6,10 +6,13 @@ module handed_motions
    use grid_blocks, only: neighbours_of
    use kinds, only: dp, int64
    use motion_start, only: motion_start_t, motion_starts, one_start_reason, several_starts
-   use rattle_class, only: class_irregular, class_irregular_so_far
+   use periodic_orbit, only: attracting_period, periodic_orbit_t
+   use problem, only: problem_t
+   use rattle_class, only: class_irregular
    use resolved_scene, only: resolved_scene_t
    use row_motions, only: are_alike, handed_state, row_motions_t, solve_trials, trial_t
    use sampling, only: sample_plan_t
+   use scene_orbit, only: nearby_orbit
    use scene_group, only: scene_group_t
    use scene_types, only: scene_t, spectrum_choice_t
    use settled_motion, only: settled_motion_t
@@ -20,8 +23,10 @@ module handed_motions
 
    !> Seed of the starts that are drawn
    integer, parameter :: start_seed = 1
-   !> How often a motion from rest that has not shown what it is is followed on
-   integer, parameter :: most_extensions = 3
+   !> How often a motion that has not shown what it is, is followed on
+   integer, parameter :: most_extensions = 2
+   !> How far from its end the periodic motion that it settles on may be, relative to the film [-]
+   real(dp), parameter :: slow_nearness = 2.0_dp
 
    !> Motions that a scene was handed: numbers of the scenes that had them, and their places there; and those that did not settle
    type :: handed_t
@@ -33,8 +38,8 @@ module handed_motions
 
 contains
 
-   !> Motions from all starts of the scenes but the first, rest; one from rest that has not shown what it is is followed on before
-   !> them. After a signal to stop they are of no use.
+   !> Motions from all starts of the scenes but the first, rest. One from rest that has not shown what it is, is followed on before
+   !> them, others after them. After a signal to stop they are of no use.
    subroutine find_other_motions(scene, resolved, choices, requests, with_verdicts, order, space, found, error)
       !> Base scene
       type(scene_t), intent(in) :: scene
@@ -53,43 +58,90 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(motion_start_t), allocatable :: starts(:, :)
       type(motion_state_t) :: state
-      type(trial_t) :: trials(size(order))
-      integer, allocatable :: left(:), slow(:)
-      logical, allocatable :: kept(:)
+      type(trial_t), allocatable :: trials(:, :)
+      integer, allocatable :: left(:)
+      logical, allocatable :: follows(:)
       integer :: number, i
 
       do i = 1, size(order)
          found(order(i))%told%one_start_reason = one_start_reason(resolved(order(i))%problem, scene%solver%method)
       end do
       left = pack(order, found(order)%told%one_start_reason == several_starts .and. found(order)%told%starts_solved > 0)
-      ! What settles slowly is followed on, each time by as many periods as before; other starts may come to it then.
-      slow = pack(left, [(found(left(i))%settled(1)%period == 0 .and. &
-                          found(left(i))%told%motions(1)%class == class_irregular_so_far, i=1, size(left))])
-      do i = 1, size(slow)
-         trials(i) = trial_t(slow(i), found(slow(i))%settled(1)%states(:, 1), is_own=.true.)
-      end do
-      do number = 1, most_extensions
-         if (size(slow) == 0) exit
-         call solve_trials(resolved, choices, requests, with_verdicts, trials(:size(slow)), space, found, error)
-         if (must_stop() .or. allocated(error)) return
-         kept = [(found(slow(i))%settled(1)%period == 0 .and. &
-                  found(slow(i))%told%motions(1)%class == class_irregular_so_far, i=1, size(slow))]
-         trials(:count(kept)) = pack(trials(:size(slow)), kept)
-         slow = pack(slow, kept)
-      end do
-      allocate (starts(scene%solver%starts, size(left)))
+      allocate (trials(size(left), scene%solver%starts), starts(scene%solver%starts, size(left)), follows(size(left)))
       do i = 1, size(left)
+         associate (own => found(left(i)))
+            trials(i, 1) = trial_t(left(i), own%settled(1)%states(:, 1), is_own=.true.)
+            follows(i) = own%settled(1)%period == 0 .and. own%told%motions(1)%class /= class_irregular
+         end associate
          starts(:, i) = motion_starts(resolved(left(i))%problem, scene%solver%starts, start_seed)
       end do
+      call follow_on(resolved, choices, requests, with_verdicts, follows, trials(:, 1), space, found, error)
+      if (must_stop() .or. allocated(error)) return
       do number = 2, scene%solver%starts
          do i = 1, size(left)
             state = state_of_start(resolved(left(i))%problem, starts(number, i))
-            trials(i) = trial_t(left(i), state%numbers)
+            trials(i, number) = trial_t(left(i), state%numbers)
          end do
-         call solve_trials(resolved, choices, requests, with_verdicts, trials(:size(left)), space, found, error)
+         call solve_trials(resolved, choices, requests, with_verdicts, trials(:, number), space, found, error)
          if (must_stop() .or. allocated(error)) return
       end do
+      ! Of starts that settle slowly the next one is followed on only if those before it have shown where they lead.
+      follows = .true.
+      do number = 2, scene%solver%starts
+         follows = follows .and. [(all(found(left(i))%told%motions%class /= class_irregular), i=1, size(left))]
+         trials(:, number)%goes_on = .true.
+         call follow_on(resolved, choices, requests, with_verdicts, follows .and. trials(:, number)%is_open, trials(:, number), &
+                        space, found, error)
+         if (must_stop() .or. allocated(error)) return
+         follows = follows .and. .not. trials(:, number)%is_open
+      end do
    end subroutine find_other_motions
+
+   !> Follow the ends of motions on, each time by as many periods as before, until they have shown what they are. What settles
+   !> slowly is next to a stable periodic motion: where Newton's method finds one, the motion goes on from there.
+   subroutine follow_on(resolved, choices, requests, with_verdicts, followed, trials, space, found, error)
+      !> Scenes of the batch, limits of their classes, and what was asked of the engine
+      type(resolved_scene_t), intent(in) :: resolved(:)
+      type(spectrum_choice_t), intent(in) :: choices(:)
+      type(request_t), intent(in) :: requests(:)
+      !> Whether the verdicts of the motions are asked for
+      logical, intent(in) :: with_verdicts
+      !> Which of the trials
+      logical, intent(in) :: followed(:)
+      type(trial_t), intent(inout) :: trials(:)
+      !> Work space
+      type(scene_group_t), intent(inout) :: space
+      type(row_motions_t), intent(inout) :: found(:)
+      !> Set if there is no memory for the samples of a scene
+      type(error_t), allocatable, intent(out) :: error
+      type(trial_t), allocatable :: these(:)
+      integer, allocatable :: left(:)
+      integer :: extension, i
+
+      left = pack([(i, i=1, size(trials))], followed)
+      do extension = 1, most_extensions
+         if (size(left) == 0) return
+         these = trials(left)
+         do i = 1, size(these)
+            if (must_stop()) return
+            call go_to_orbit(resolved(these(i)%scene)%problem, these(i))
+         end do
+         call solve_trials(resolved, choices, requests, with_verdicts, these, space, found, error)
+         if (must_stop() .or. allocated(error)) return
+         trials(left) = these
+         left = pack(left, these%is_open)
+      end do
+   end subroutine follow_on
+
+   !> Where Newton's method finds a stable periodic motion next to the state of a trial, the trial starts on it.
+   subroutine go_to_orbit(problem, trial)
+      type(problem_t), intent(in) :: problem
+      type(trial_t), intent(inout) :: trial
+      type(periodic_orbit_t) :: orbit
+
+      orbit = nearby_orbit(problem, motion_state_t(numbers=trial%state), slow_nearness)
+      if (attracting_period(orbit) > 0) trial%state = orbit%state
+   end subroutine go_to_orbit
 
    !> Hand every motion to the neighbours that have none like it, in rounds ordered by the numbers of the scenes.
    subroutine hand_on_motions(plan, first, resolved, choices, requests, with_verdicts, space, found, error)
@@ -118,6 +170,9 @@ contains
          call next_round(plan, first, resolved, found, handed, trials)
          if (size(trials) == 0) return
          call solve_trials(resolved, choices, requests, with_verdicts, trials, space, found, error)
+         if (must_stop() .or. allocated(error)) return
+         trials%goes_on = .true.
+         call follow_on(resolved, choices, requests, with_verdicts, trials%is_next_to_one, trials, space, found, error)
          if (must_stop() .or. allocated(error)) return
          do i = 1, size(trials)
             if (trials(i)%settled) cycle

@@ -43,10 +43,11 @@ module row_motions
       !> Place of its scene in the batch
       integer :: scene = 0
       real(dp), allocatable :: state(:)
-      !> Whether it is the end of the motion from rest, which is followed on; on return the state is that of its new end
-      logical :: is_own = .false.
-      !> On return, whether it came to a motion that repeats
-      logical :: settled = .false.
+      !> Whether it is the end of the motion from rest, or of another start, which is followed on
+      logical :: is_own = .false., goes_on = .false.
+      !> On return, whether it came to a motion that repeats, and whether it did not and may still, or came next to one whose
+      !> acceleration its window does not tell; the state is that of its end then
+      logical :: settled = .false., is_open = .false., is_next_to_one = .false.
    end type trial_t
 
    public :: motion_from_rest, solve_trials, handed_state, are_alike
@@ -281,14 +282,17 @@ contains
       integer :: known, i
 
       associate (ending => group%endings(place))
-         if (.not. trial%is_own) found%told%starts_solved = found%told%starts_solved + 1
-         if (trial%is_own .and. is_success(ending%status)) trial%state = ending%numbers
+         if (.not. (trial%is_own .or. trial%goes_on)) found%told%starts_solved = found%told%starts_solved + 1
          found%told%extra_periods = found%told%extra_periods + ending%periods
          known = ending%known
          trial%settled = ending%orbit > 0
+         trial%is_next_to_one = .false.
          if (known == 0 .and. is_success(ending%status)) then
             motion = settled_of(problem, samples_per_period, place, group)
-            if (.not. trial%settled) trial%settled = motion%period > 0 .and. group%verdicts(place)%class == class_subharmonic
+            if (.not. trial%settled .and. motion%period > 0 .and. group%verdicts(place)%class == class_subharmonic) then
+               trial%is_next_to_one = motion%rms_is_rough
+               trial%settled = .not. trial%is_next_to_one
+            end if
             if (trial%settled) then
                do i = 1, size(found%settled)
                   if (same_motion(problem, found%settled(i), motion)) known = i
@@ -304,9 +308,12 @@ contains
                known = size(found%settled)
             end if
          end if
+         trial%is_open = .not. trial%settled .and. is_success(ending%status) .and. group%verdicts(place)%class /= class_irregular
+         if (trial%is_open) trial%state = ending%numbers
       end associate
       if (.not. trial%is_own) then
-         if (.not. trial%settled) found%told%unsettled_starts = found%told%unsettled_starts + 1
+         if (trial%settled .eqv. trial%goes_on) &
+            found%told%unsettled_starts = found%told%unsettled_starts + merge(-1, 1, trial%settled)
       else if (known > 1) then
          call give_own_motion(known, trial%settled, found)
       end if

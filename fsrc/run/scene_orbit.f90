@@ -1,6 +1,6 @@
 !> The periodic motion that a scene ends on.
 module scene_orbit
-   use engine, only: ending_t
+   use engine, only: ending_t, motion_state_t
    use kinds, only: dp
    use known_motions, only: are_near
    use periodic_orbit, only: find_periodic_orbit, map_states, periodic_orbit_t
@@ -20,14 +20,19 @@ module scene_orbit
 contains
 
    !> The periodic motion at the end of a run, if there is one.
-   type(periodic_orbit_t) function nearby_orbit(problem, ending)
+   type(periodic_orbit_t) function nearby_orbit(problem, ending, within)
       !> What moves
       type(problem_t), intent(in) :: problem
       !> Where its motion ended
-      type(ending_t), intent(in) :: ending
+      class(motion_state_t), intent(in) :: ending
+      !> How far it may be, relative to the film; absent: orbit_nearness [-]
+      real(dp), intent(in), optional :: within
+      real(dp) :: nearness
 
+      nearness = orbit_nearness
+      if (present(within)) nearness = within
       call unlock_texts()
-      nearby_orbit = find_periodic_orbit(problem, ending%numbers, orbit_nearness)
+      nearby_orbit = find_periodic_orbit(problem, ending%numbers, nearness)
       call lock_texts()
    end function nearby_orbit
 
