@@ -25,8 +25,7 @@ module lyapunov
    !> Accuracy of the motions, and distance of the neighbours, relative to the film: a thousand times farther apart than the
    !> errors of a period, whose per mille of a growth is nothing beside its scatter from period to period, and near enough for
    !> the distance to grow as an infinitely small one does.
-   real(dp), parameter, public :: map_accuracy = 1.0e-8_dp
-   real(dp), parameter :: distance = 1.0e-5_dp
+   real(dp), parameter :: map_accuracy = 1.0e-8_dp, distance = 1.0e-5_dp
    !> Standard errors by which an exponent has to differ from 0.
    real(dp), parameter :: least_errors = 2.0_dp
 

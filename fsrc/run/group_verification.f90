@@ -5,14 +5,14 @@
 !> repeats, the tighter one within its own accuracy, their forecasts may save different periods: the orbits are held against each
 !> other, beginning with whichever of their periods fits best.
 !>
-!> Two solutions of an irregular motion part whatever their digits. It is followed behind its window (module motion_behind), and the
-!> tighter solution is that of a window there; only that Newmark's steps come there from their start is left to be shown.
+!> Two solutions of an irregular motion part whatever their digits. Another one is followed behind its window (module motion_behind), and
+!> the tighter one is that of a window there.
 module group_verification
    use carried_loads, only: films_of
    use doubt, only: doubt_samples, doubt_t, doubt_tighter_ending, first_doubt
    use engine, only: motion_state_t, request_t, start_of
    use kinds, only: dp
-   use motion_behind, only: follow_behind
+   use motion_behind, only: follow_behind, other_accuracy
    use node_extremes, only: seen_acceleration, seen_films, seen_loads, seen_net_load, seen_quantities
    use periodic_orbit, only: attracting_period, periodic_orbit_t
    use problem, only: of_film
@@ -77,7 +77,7 @@ contains
       call tighten(method, request%accuracy, tighter%accuracy, implicit)
       starts%implicit = implicit
       irregular = pack(tested, group%verdicts(tested)%class == class_irregular)
-      if (method == method_taylor) call go_behind(irregular, group%endings(irregular)%motion_state_t)
+      call go_behind(irregular)
       if (allocated(tight%error)) return
       noise = resolved%noise_floor_at(tighter%accuracy)
       wants = .false.
@@ -106,9 +106,6 @@ contains
                if (present(orbits)) orbits(i) = orbit
             end if
             call note_known(tight_verdict, verdict)
-            if (method /= method_taylor .and. verdict%class == class_irregular .and. tight_verdict%class == class_irregular) &
-               call go_behind([i], [tight%endings(k)%motion_state_t])
-            if (allocated(tight%error)) return
             call compare(resolved(i), choices(i), method, tighter, i, k, noise(i), doubts(i), group, tight, verifications(i))
             if (present(impacts)) verifications(i)%impacts = &
                agreement_of(problem, extremes_of_record(group%records(i)), impacts(i), extremes_of_record(tight%records(k)), &
@@ -118,19 +115,19 @@ contains
 
    contains
 
-      !> See that motions stay irregular behind their windows, and start the tighter solutions there, where their last periods are
-      !> sampled.
-      subroutine go_behind(places, from)
-         !> Of the motions, and where their windows end
+      !> See that motions, solved again, stay irregular behind their windows, and start the tighter solutions there, where their last
+      !> periods are sampled.
+      subroutine go_behind(places)
+         !> Of the motions
          integer, intent(in) :: places(:)
-         type(motion_state_t), intent(in) :: from(:)
          type(motion_state_t) :: behind(size(places))
          type(doubt_t) :: found(size(places))
 
-         behind = from
+         behind = start_of(resolved(places)%problem)
          call unlock_texts()
-         call follow_behind(resolved(places), choices(places), request%sampled_periods, request%samples_per_period, behind, found, &
-                            tight%error)
+         call follow_behind(resolved(places), choices(places), other_accuracy(request%accuracy), &
+                            request%periods - request%sampled_periods, request%sampled_periods, request%samples_per_period, &
+                            behind, found, tight%error)
          call lock_texts()
          behind%implicit = behind%implicit .or. implicit
          behind%periods = request%periods - request%sampled_periods

@@ -1,15 +1,14 @@
-!> Whether motions stay irregular behind their windows, and where they are then: one procedure for scenes and rows.
+!> Whether irregular motions, solved again, are irregular in their windows and stay so behind them, and where they are then: one
+!> procedure for scenes and rows.
 !>
-!> Nothing but the class of the windows behind is asked for, which integrals over their steps tell. Their digits mean nothing, since
-!> neighbouring motions part: they are followed as exactly as module lyapunov follows these. What such a motion has come to behind
-!> its windows is as good a sample of it as what a tighter solution from its start would come to, for a fraction of the steps.
+!> Two solutions of an irregular motion part whatever their digits, so that one of another accuracy is another sample of it: one that
+!> settles shows that the first one may. Nothing but the class of its windows is asked for, which integrals over their steps tell.
 module motion_behind
-   use doubt, only: doubt_none, doubt_t
+   use doubt, only: doubt_class, doubt_class_behind, doubt_none, doubt_t, doubt_tighter_ending
    use engine, only: ending_t, motion_state_t, request_t
    use errors, only: error_t
    use finer_windows, only: classify_finer, integral_record
    use kinds, only: dp
-   use lyapunov, only: map_accuracy
    use many_motions, only: solve_motions
    use problem, only: state_size
    use rattle_class, only: classify_steps, is_off_harmonics, rattle_verdict_t
@@ -22,19 +21,35 @@ module motion_behind
    implicit none(type, external)
    private
 
-   public :: follow_behind
+   !> Accuracy of the other solution: enough to tell motions apart, and another one where the scene has nearly this [-]
+   real(dp), parameter :: usual_accuracy = 1.0e-6_dp, finer_accuracy = 1.0e-8_dp, nearly = 0.1_dp
+
+   public :: follow_behind, other_accuracy
 
 contains
 
-   !> Follow irregular motions behind their windows, side by side. After a signal to stop the answers are of no use.
-   subroutine follow_behind(resolved, choices, periods, samples_per_period, states, doubts, error)
+   !> Accuracy of another solution of an irregular motion [-].
+   elemental real(dp) function other_accuracy(own_accuracy)
+      !> That of the first one [-]
+      real(dp), intent(in) :: own_accuracy
+
+      other_accuracy = merge(usual_accuracy, finer_accuracy, own_accuracy <= nearly*usual_accuracy)
+   end function other_accuracy
+
+   !> Solve irregular motions again, side by side, and follow them behind their windows. After a signal to stop the answers are of no
+   !> use.
+   subroutine follow_behind(resolved, choices, accuracy, before, periods, samples_per_period, states, doubts, error)
       !> What follows from the scenes, and the limits of their classes
       type(resolved_scene_t), intent(in) :: resolved(:)
       type(spectrum_choice_t), intent(in) :: choices(:)
+      !> Relative accuracy of this solution [-]
+      real(dp), intent(in) :: accuracy
+      !> Periods before the windows that were judged
+      integer, intent(in) :: before
       !> Periods of a window, and samples of each, from which on more are taken where integrals leave the class open
       integer, intent(in) :: periods
       integer, intent(in) :: samples_per_period
-      !> Where the windows end; on return where the last one behind them does, of motions that could be followed
+      !> Where the motions start; on return where the last window behind ends, or the last one that could be followed
       type(motion_state_t), intent(inout) :: states(:)
       !> None where a motion stays irregular
       type(doubt_t), intent(out) :: doubts(:)
@@ -44,14 +59,33 @@ contains
       integer, allocatable :: left(:)
       integer :: i, passed
 
-      window = request_t(accuracy=map_accuracy, periods=periods, samples_per_period=1, sampled_periods=periods, every_period=.true.)
       allocate (left, source=[(i, i=1, size(resolved))])
-      do passed = 1, windows_behind(periods)
+      if (size(left) == 0) return
+      if (before > 0) call go_to_windows
+      window = request_t(accuracy=accuracy, periods=periods, samples_per_period=1, sampled_periods=periods, every_period=.true.)
+      do passed = 0, windows_behind(periods)
          if (size(left) == 0 .or. must_stop() .or. allocated(error)) return
          call pass_window
       end do
 
    contains
+
+      !> Follow the motions to where their windows begin.
+      subroutine go_to_windows
+         type(ending_t) :: endings(size(left))
+         real(dp) :: none(0, 2, size(left))
+         integer :: k
+
+         call solve_motions(resolved%problem, states, request_t(accuracy=accuracy, periods=before), none, endings)
+         do k = 1, size(left)
+            if (is_success(endings(k)%status)) then
+               states(k) = endings(k)%motion_state_t
+            else
+               doubts(k) = doubt_t(doubt_tighter_ending, counts=[endings(k)%status, 0])
+            end if
+         end do
+         left = pack(left, doubts%code == doubt_none)
+      end subroutine go_to_windows
 
       !> Follow those that are left through one more window.
       subroutine pass_window
@@ -74,7 +108,7 @@ contains
          do k = 1, size(left)
             if (.not. followed(k)) cycle
             call classify_steps(records(k), resolved(left(k))%problem%frequency, choices(left(k)), &
-                                resolved(left(k))%noise_floor_at(map_accuracy), verdicts(k))
+                                resolved(left(k))%noise_floor_at(accuracy), verdicts(k))
             states(left(k)) = endings(k)%motion_state_t
          end do
          call settle_bounds(pack([(k, k=1, size(left))], followed .and. verdicts%spectrum%irregular_is_bound .and. &
@@ -82,6 +116,7 @@ contains
          if (allocated(error)) return
          do k = 1, size(left)
             doubts(left(k)) = doubt_behind(passed, endings(k)%status, verdicts(k))
+            if (passed == 0 .and. doubts(left(k))%code == doubt_class_behind) doubts(left(k))%code = doubt_class
          end do
          left = pack(left, doubts(left)%code == doubt_none)
       end subroutine pass_window
@@ -100,7 +135,7 @@ contains
          classes%spectrum%sampling_sufficient = .false.
          associate (scenes => left(unsure))
             call classify_finer(resolved(scenes)%problem, choices(scenes), &
-                                [(resolved(scenes(k))%noise_floor_at(map_accuracy), k=1, size(unsure))], map_accuracy, &
+                                [(resolved(scenes(k))%noise_floor_at(accuracy), k=1, size(unsure))], accuracy, &
                             samples_per_period, spread(periods, 1, size(unsure)), records(unsure), classes, classified_by, .true., &
                                 error)
          end associate

@@ -10,9 +10,9 @@ module doubt
 
    !> Codes, and what their numbers and counts are.
    integer, parameter, public :: doubt_none = 0
-   !> The tighter solution failed: its status
+   !> The second solution failed: its status
    integer, parameter, public :: doubt_tighter_ending = 1
-   !> Another class: that of the tighter solution
+   !> Another class: that of the second solution
    integer, parameter, public :: doubt_class = 2
    !> Irregular only so far: the parting of neighbouring motions
    integer, parameter, public :: doubt_parting = 3
@@ -77,9 +77,9 @@ contains
       associate (numbers => doubt%numbers, counts => doubt%counts)
          select case (doubt%code)
          case (doubt_tighter_ending)
-            sentence = 'The tighter solution ended as '//status_name(counts(1))//'.'
+            sentence = 'The second solution ended as '//status_name(counts(1))//'.'
          case (doubt_class)
-            sentence = 'Solved tighter, the class is '//spaced(quantity_word(quantity_rattle_class, counts(1)))//'.'
+            sentence = 'Solved again, the class is '//spaced(quantity_word(quantity_rattle_class, counts(1)))//'.'
          case (doubt_parting)
             sentence = doubt_of_parting(doubt%parting)
          case (doubt_momentum)

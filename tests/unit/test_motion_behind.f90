@@ -2,13 +2,12 @@
 module test_motion_behind
    use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t
-   use doubt, only: doubt_class_behind, doubt_t, is_doubted
+   use doubt, only: doubt_class, doubt_class_behind, doubt_t, is_doubted
    use engine, only: ending_t, motion_state_t, request_t, start_of
    use errors, only: error_t
    use kinds, only: dp
-   use lyapunov, only: map_accuracy
    use many_motions, only: solve_motions
-   use motion_behind, only: follow_behind
+   use motion_behind, only: follow_behind, other_accuracy
    use rattle_class, only: class_irregular, class_irregular_so_far
    use resolved_scene, only: resolve, resolved_scene_t
    use scene_types, only: law_iso_viscous, scene_t, spectrum_choice_t
@@ -17,6 +16,7 @@ module test_motion_behind
    private
 
    integer, parameter :: samples_per_period = 64, window = 8
+   real(dp), parameter :: accuracy = 1.0e-6_dp
 
    public :: run_motion_behind_tests
 
@@ -28,24 +28,23 @@ contains
 
       call checks%start('motion_behind')
       call test_two_motions(checks)
+      call test_other_accuracy(checks)
    end subroutine run_motion_behind_tests
 
-   !> A motion that stays irregular is followed through all windows, as if it had never stopped. One that settles is left where it is
-   !> seen to, and tells after how many windows and to what. Neither changes a bit of the other.
+   !> A motion that stays irregular is followed through its window and all windows behind, as if it never stopped. One that settles
+   !> is left where it is seen to, and tells after how many windows and to what. Neither changes a bit of the other.
    subroutine test_two_motions(checks)
       class(check_list_t), intent(inout) :: checks
-      !> Of the scenes: speed [m/s], amplitude [N], periods before the windows behind
+      !> Of the scenes: speed [m/s] and amplitude [N]
       real(dp), parameter :: speeds(2) = [12.0_dp, 1.905_dp], amplitudes(2) = [1200.0_dp, 400.0_dp]
-      integer, parameter :: periods(2) = [60, 8]
+      integer, parameter :: none_before = 0, some_before = 52
       type(scene_t) :: scene
       type(resolved_scene_t) :: resolved(2)
       type(spectrum_choice_t) :: choices(2)
-      type(motion_state_t) :: starts(2), together(2), alone(1)
-      type(ending_t) :: ended(1)
+      type(motion_state_t) :: together(2), alone(1), start(1)
       type(doubt_t) :: doubts(2), doubt(1)
       type(error_t), allocatable :: error
-      real(dp) :: none(0, 2, 1)
-      integer :: i, passed
+      integer :: i, windows
 
       do i = 1, 2
          scene = canonical_scene(law_iso_viscous, samples_per_period)
@@ -53,28 +52,56 @@ contains
          scene%excitation%force_amplitude = amplitudes(i)
          resolved(i) = resolve(scene)
          choices(i) = scene%spectrum
-         call solve_motions([resolved(i)%problem], [start_of(resolved(i)%problem)], &
-                            request_t(accuracy=1.0e-6_dp, periods=periods(i)), none, ended)
-         starts(i) = ended(1)%motion_state_t
+         together(i) = start_of(resolved(i)%problem)
       end do
-      together = starts
-      call follow_behind(resolved, choices, window, samples_per_period, together, doubts, error)
+      call follow_behind(resolved, choices, accuracy, none_before, window, samples_per_period, together, doubts, error)
       call checks%check(.not. allocated(error), 'no error')
       call checks%check(.not. is_doubted(doubts(1)), 'irregular for good')
       call checks%check(doubts(2)%code == doubt_class_behind .and. .not. any(doubts(2)%counts(1) == &
                         [class_irregular, class_irregular_so_far]), 'settles behind its window')
       do i = 1, 2
-         passed = windows_behind(window)
-         if (is_doubted(doubts(i))) passed = doubts(i)%counts(2)
-         starts(i)%periods = 0
-         call solve_motions(resolved(i:i)%problem, starts(i:i), request_t(accuracy=map_accuracy, periods=passed*window, &
-                                                                          every_period=.true.), none, ended)
-         call checks%check(all(abs(together(i)%numbers - ended(1)%numbers) <= 0.0_dp), 'where the last window behind ends')
-         alone = starts(i:i)
-         call follow_behind(resolved(i:i), choices(i:i), window, samples_per_period, alone, doubt, error)
+         windows = 1 + windows_behind(window)
+         if (is_doubted(doubts(i))) windows = 1 + doubts(i)%counts(2)
+         call expect_end(i, windows*window, together(i))
+         alone = start_of(resolved(i)%problem)
+         call follow_behind(resolved(i:i), choices(i:i), accuracy, none_before, window, samples_per_period, alone, doubt, error)
          call checks%check(all(abs(together(i)%numbers - alone(1)%numbers) <= 0.0_dp) .and. &
                            doubt(1)%code == doubts(i)%code .and. all(doubt(1)%counts == doubts(i)%counts), 'as if it were alone')
       end do
+      alone = start_of(resolved(1)%problem)
+      call follow_behind(resolved(:1), choices(:1), accuracy, some_before, window, samples_per_period, alone, doubt, error)
+      call expect_end(1, some_before + (1 + windows_behind(window))*window, alone(1))
+      ! Where it begins later, the one that settles has settled.
+      start = start_of(resolved(2)%problem)
+      call follow_behind(resolved(2:), choices(2:), accuracy, some_before, window, samples_per_period, start, doubt, error)
+      call checks%check(doubt(1)%code == doubt_class .and. doubt(1)%counts(1) == doubts(2)%counts(1), 'settled in its window')
+
+   contains
+
+      !> A motion is where a solution of so many periods from its start ends.
+      subroutine expect_end(place, periods, state)
+         !> Place of its scene
+         integer, intent(in) :: place
+         integer, intent(in) :: periods
+         type(motion_state_t), intent(in) :: state
+         type(ending_t) :: ended(1)
+         real(dp) :: none(0, 2, 1)
+
+         call solve_motions(resolved(place:place)%problem, [start_of(resolved(place)%problem)], &
+                            request_t(accuracy=accuracy, periods=periods, every_period=.true.), none, ended)
+         call checks%check(all(abs(state%numbers - ended(1)%numbers) <= 0.0_dp), 'where the last window behind ends')
+      end subroutine expect_end
+
    end subroutine test_two_motions
+
+   !> Another solution has another accuracy, whatever that of the first one.
+   subroutine test_other_accuracy(checks)
+      class(check_list_t), intent(inout) :: checks
+
+      call checks%check_close(other_accuracy(1.0e-8_dp), 1.0e-6_dp, 1.0e-20_dp, 'of most scenes')
+      call checks%check_close(other_accuracy(1.0e-12_dp), 1.0e-6_dp, 1.0e-20_dp, 'of exact scenes')
+      call checks%check_close(other_accuracy(1.0e-6_dp), 1.0e-8_dp, 1.0e-20_dp, 'of scenes that have that accuracy')
+      call checks%check_close(other_accuracy(1.0e-4_dp), 1.0e-8_dp, 1.0e-20_dp, 'of rough scenes')
+   end subroutine test_other_accuracy
 
 end module test_motion_behind

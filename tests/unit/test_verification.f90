@@ -454,7 +454,7 @@ call checks%check(index(verification_sentence(verification), words) > 0, words//
 
       verification = no_verification(doubt_t(doubt_tighter_ending, counts=[status_time_limit, 0]))
       call checks%check(verification%exists .and. .not. verification%verified, 'none: not verified')
-      call checks%check(verification_sentence(verification) == 'The tighter solution ended as time_limit.' .and. &
+      call checks%check(verification_sentence(verification) == 'The second solution ended as time_limit.' .and. &
                         size(verification%harmonic_errors) == 0, 'none: its reason')
    end subroutine test_none
 
