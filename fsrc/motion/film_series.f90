@@ -16,7 +16,7 @@ module film_series
    use reynolds_piezo_expansion, only: expand_reynolds_piezo
    use reynolds_piezo_under_load, only: expand_under_load, film_throughout
    use taylor_iso_viscous, only: iso_viscous_series
-   use taylor_piezo_viscous, only: piezo_viscous_series, piezo_viscous_series_of_two, reject_unresolved_growth
+   use taylor_piezo_viscous, only: piezo_viscous_series, reject_unresolved_growth
    use taylor_reynolds_piezo, only: reynolds_piezo_series
    use taylor_rupture, only: equation_rounding, reject_large_defect, rupture_order, rupture_series
    use taylor_springs, only: iso_viscous_springs, piezo_viscous_springs, shortest_rest
@@ -140,13 +140,7 @@ contains
       call force_derivatives(series%last_order, block%oscillation, force)
       select case (series%kernel)
       case (kernel_piezo)
-         if (series%two_flanks) then
-            call piezo_viscous_series_of_two(block%strength, block%damping, block%backlash, block%static_load, force, block%film, &
-                                             block%lienard, block%damping_rate)
-         else
-            call piezo_viscous_series(block%strength, block%damping, block%static_load, force, block%film, block%lienard, &
-                                      block%damping_rate)
-         end if
+         call piezo_viscous_series(series%two_flanks, force, block)
       case (kernel_half_pi)
          call iso_viscous_series(series%two_flanks, force, block)
       case (kernel_reynolds_piezo)
