@@ -5,6 +5,7 @@ module handed_motions
    use errors, only: error_t
    use grid_blocks, only: neighbours_of
    use kinds, only: dp, int64
+   use known_motions, only: are_near
    use motion_start, only: motion_start_t, motion_starts, one_start_reason, several_starts
    use periodic_orbit, only: attracting_period, periodic_orbit_t
    use problem, only: problem_t
@@ -15,7 +16,7 @@ module handed_motions
    use scene_orbit, only: nearby_orbit
    use scene_group, only: scene_group_t
    use scene_types, only: scene_t, spectrum_choice_t
-   use settled_motion, only: settled_motion_t
+   use settled_motion, only: near_states, settled_motion_t
    use signals, only: must_stop
    use varied_keys, only: pair_position
    implicit none(type, external)
@@ -23,9 +24,9 @@ module handed_motions
 
    !> Seed of the starts that are drawn
    integer, parameter :: start_seed = 1
-   !> How often a motion that has not shown what it is, is followed on
-   integer, parameter :: most_extensions = 2
-   !> How far from its end the periodic motion that it settles on may be, relative to the film [-]
+   !> How often a motion that has not shown what it is, is followed on: the one from rest, and one from another start
+   integer, parameter :: own_extensions = 2, other_extensions = 1
+   !> How far from its end a periodic motion may be that it settles on, relative to the film [-]
    real(dp), parameter :: slow_nearness = 2.0_dp
 
    !> Motions that a scene was handed: numbers of the scenes that had them, and their places there; and those that did not settle
@@ -119,7 +120,8 @@ contains
       integer :: extension, i
 
       left = pack([(i, i=1, size(trials))], followed)
-      do extension = 1, most_extensions
+      do extension = 1, max(own_extensions, other_extensions)
+         left = pack(left, extension <= merge(own_extensions, other_extensions, trials(left)%is_own))
          if (size(left) == 0) return
          these = trials(left)
          do i = 1, size(these)
@@ -140,7 +142,10 @@ contains
       type(periodic_orbit_t) :: orbit
 
       orbit = nearby_orbit(problem, motion_state_t(numbers=trial%state), slow_nearness)
-      if (attracting_period(orbit) > 0) trial%state = orbit%state
+      if (attracting_period(orbit) == 0) return
+      ! Of other starts any stable motion is of use; of the motion from rest columns tell.
+      if (trial%is_own .and. .not. are_near(problem, near_states(problem), orbit%state, trial%state)) return
+      trial%state = orbit%state
    end subroutine go_to_orbit
 
    !> Hand every motion to the neighbours that have none like it, in rounds ordered by the numbers of the scenes.
