@@ -1,4 +1,4 @@
-"""What the closure of the elastohydrodynamic film costs beside the exact film of rigid flanks on the same
+"""What the closure of the elastohydrodynamic film costs beside the Reynolds film of rigid flanks on the same
 springs.
 
     bench_closure.py PROGRAM [--rounds 3] [--side 12] [--many 100]

@@ -348,7 +348,7 @@ def main() -> None:
     parser.add_argument("--flags", type=Path, help="flags file of the build of the program")
     options = parser.parse_args()
     print(
-        "| scene | who | setting | processor time | over rattle | error of the peak | of the smallest film |"
+        "| scene | who | setting | processor time | over rattle | error of the peak | of the minimum film |"
     )
     print("|---|---|---|---:|---:|---:|---:|")
     with tempfile.TemporaryDirectory() as folder:

@@ -12,7 +12,7 @@ times; --flags names the file in which make keeps their compiler and flags. A co
 or that fails on a setting, is reported and left out.
 
 --changed adds the published scenes changed by several orders, two flanks and elastic teeth, and leaves out
-the exact films. Their references are made at the start: heyoka at its tightest tolerance, CVODE beside it
+the Reynolds films. Their references are made at the start: heyoka at its tightest tolerance, CVODE beside it
 says how sure that is. Peers without these equations are left out.
 """
 
