@@ -205,6 +205,63 @@ def test_a_motion_of_three_periods_and_an_irregular_one() -> None:
     assert told["orbit_text"].startswith("no Floquet multipliers: ") and "floquet_multipliers" not in told
 
 
+CALM = """&contact radius = 9.1e-3, length = 0.019, stiffness = 2.4e8 /
+&lubricant viscosity = 0.02, pressure_viscosity = 1.6e-8 /
+&kinematics rolling_speed = 2.8 /
+&load mass = 0.62, steady_force = 10.0, gravity = 0.0, frequency = 1500.0, force_amplitude = 0.2 /
+&film law = 'elastohydrodynamic', model = 'closure' /
+&solver until = 'periods', periods = 1, samples_per_period = 256 /
+&spectrum periods = 1, verify = .false. /
+&output columns = 'time', 'gear_position' /
+"""
+
+
+def test_flattening_counts_alike_in_all_films() -> None:
+    """At low pressure the gear at rest under a load stands where all three films have it, and further in by
+    the plane contact where that adds to the stiffness."""
+    constant = {"lubricant.viscosity_law": "constant"}
+    films = {
+        "rigid": {"film.law": "iso-viscous", "film.model": "reynolds", "solver.starts": 1},
+        "closure": constant | {"solver.starts": 1},
+        # A bound of 1e-4 has the film in nodes.
+        "nodes": constant | {"film.model": "resolved", "film.nodes": 128, "solver.accuracy": 1e-5},
+    }
+    at_rest = {
+        name: [
+            float(
+                package.run(CALM, set=settings | {"contact.flattening_included": included}).result[
+                    "gear_position"
+                ][0]
+            )
+            for included in (True, False)
+        ]
+        for name, settings in films.items()
+    }
+    modulus = 226e9
+    unit = 9.1e-3 * (0.02 * 2.8 / (modulus * 9.1e-3)) ** 0.25
+    plane = 4.0 / np.pi * np.log(9.1e-3 / unit) / (modulus * 0.019)
+    for included, beside in at_rest.values():
+        assert included - beside == pytest.approx(10.0 * plane, rel=2e-3)
+    # The plane contact has the width R eps, flanks under a film that of the film.
+    assert at_rest["closure"][0] == pytest.approx(at_rest["nodes"][0], rel=3e-4)
+    assert at_rest["rigid"][0] == pytest.approx(at_rest["nodes"][0], rel=4e-3)
+
+
+@pytest.mark.parametrize("model", ("closure", "resolved"))
+def test_a_motion_of_three_periods_settles_by_its_multiplier(model: str) -> None:
+    """By nodes more slowly than by the closure: each model's own deviations decay by what it tells."""
+    settings = {"film.model": model, "solver.starts": 1} if model == "closure" else {}
+    told = multipliers_of(package.run(FAST, set=settings).summary)
+    followed = {"solver.until": "periods", "solver.periods": 81, "solver.samples_per_period": 64}
+    shown = {"spectrum.periods": 51, "spectrum.verify": False, "output.columns": ["time", "gear_position"]}
+    solved = package.run(FAST, set=settings | followed | shown).result
+    steps = np.diff(solved["gear_position"][::192])
+    seen = np.median(steps[6:] / steps[5:-1])
+    # 17 cycles of three periods; the accuracy of nodes is 1e-3, and what a film is off by grows with impacts.
+    assert told[0].imag == 0.0 and seen == pytest.approx(told[0].real, rel=0.04)
+    assert (-0.8 < seen < -0.68) == (model == "resolved")
+
+
 def test_pairs_of_a_gearbox_may_differ_in_nothing_but_their_own_keys(run, tmp_path: Path) -> None:
     first = GEAR.partition("/")[0]
     text = (
