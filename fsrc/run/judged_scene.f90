@@ -255,7 +255,7 @@ contains
             if (verification%exists .and. verification%pressure_error >= 0.0_dp) value = verification%pressure_error
          case (quantity_pressure_resolved)
             if (verification%exists .and. verification%pressure_error >= 0.0_dp) &
-               value = flag(verification%pressure_error < resolved_pressure)
+               value = flag(verification%pressure_error < 2.0_dp*resolved_pressure)
          case (quantity_film_at_pressure_maximum)
             if (problem%contact%film%in_nodes) value = film_of_peak(judged, of_film_at_pressure)
          case (quantity_central_film)

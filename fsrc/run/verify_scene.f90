@@ -145,7 +145,7 @@ contains
          verification%severity_error = severity_error(severity, severity_of_record(finer%record, problem%frequency), &
                                                       finer_share*scene%solver%accuracy)
          associate (pressures => [extremes%highest(seen_pressure)%value, finer%record%highest(seen_pressure)%value])
-            verification%pressure_error = abs(pressures(1) - pressures(2))/minval(pressures)
+            verification%pressure_error = 2.0_dp*abs(pressures(1) - pressures(2))/minval(pressures)
          end associate
       end associate
    end subroutine verify_in_nodes

@@ -38,7 +38,7 @@ module verification
       real(dp) :: acceleration_error = 0.0_dp
       !> Largest relative error of the numbers of severity [-]
       real(dp) :: severity_error = 0.0_dp
-      !> Of films in nodes: by which share twice as many change the largest pressure [-]; below 0: it is not known
+      !> Of films in nodes: twice the share by which twice as many change the largest pressure [-]; below 0: it is not known
       real(dp) :: pressure_error = -1.0_dp
       !> Whether the impacts are the same
       type(impact_agreement_t) :: impacts = impact_agreement_t()

@@ -52,6 +52,9 @@ def test_few_nodes_are_within_their_error_of_more(repository: Path) -> None:
     for name in ("film_minimum", "acceleration_maximum"):
         errors = told[24][f"{name}_error"] + told[64][f"{name}_error"]
         assert abs(told[24][name] - told[64][name]) <= errors, name
+    pressures = [told[nodes]["pressure_maximum"] for nodes in (24, 64)]
+    errors = told[24]["pressure_error"] + told[64]["pressure_error"]
+    assert abs(pressures[0] / pressures[1] - 1.0) <= errors
 
 
 def test_a_gear_is_near_its_closure_and_within_its_errors() -> None:
