@@ -9,8 +9,8 @@ module nodal_engine
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
    use nodal_film, only: shares_of_fourth_order
-   use nodal_flank, only: accept_step, correct_flank, finish_step, is_bent, kept_times, nodal_contact_t, respond, rigid_gap, &
-                          share_that_leaves_a_film, step_weights_t, stiffen
+   use nodal_flank, only: accept_step, correct_flank, finish_step, is_bent, kept_times, nodal_contact_t, nodal_flank_t, respond, &
+                          rigid_gap, share_that_leaves_a_film, step_weights_t, stiffen
    use nodal_profiles, only: nodal_profiles_t, note_profiles, start_profiles
    use nodal_state, only: pack_motion, unpack_motion
    use nodal_step, only: begin_period, distance_of_states, fastest_of, first_step, gear_t, most_steps, motion_t, &
@@ -26,6 +26,10 @@ module nodal_engine
 
    !> Newton's passes for the gear at rest: of them all, and before nodes change one by one
    integer, parameter :: most_rest_passes = 120, free_rest_passes = 80
+   !> By how much the load grows from one film at rest to the next, at most and at least
+   real(dp), parameter :: largest_growth = 1.4_dp, least_growth = 1.005_dp
+   !> Share up to which two loads are the same
+   real(dp), parameter :: same_load = 1.0e-3_dp
    !> States at the ends of periods that are kept, and share of the tolerance of a step up to which a motion repeats
    integer, parameter :: kept_periods = kept_states
    real(dp), parameter :: repetition_share = 2.0_dp
@@ -251,8 +255,9 @@ contains
       logical, intent(out) :: found
       type(step_weights_t) :: at_rest
       real(dp) :: start(state_size(problem)), loads(2), target, load(2), by_gap(2), change, changes, correction, share
+      real(dp) :: growth, solved_load
+      type(nodal_flank_t) :: solved
       integer :: flank, pass, j
-      logical :: exists
 
       at_rest = step_weights_t()
       start = initial_state(problem)
@@ -260,6 +265,9 @@ contains
       if (.not. found) return
       loads = 0.0_dp
       loads(:gear%flanks) = start(of_drive_compression:of_velocity + gear%flanks)/(problem%contact%compliance*gear%load_unit)
+      ! A closure may have one film under two loads, and then tells the other one or none.
+      target = static_load(problem)/gear%load_unit + loads(2)
+      if (target > 0.0_dp .and. abs(loads(1) - target) > same_load*target) loads(1) = target
       do flank = 1, gear%flanks
          associate (film => motion%flanks(flank))
             ! A rigid film at rest: M H = 12 Phi(0), of which Phi(0) is 0.2039.
@@ -281,19 +289,21 @@ contains
             film%fourth = shares_of_fourth_order(film%pressures(:, 0))
             film%rate = 0.0_dp
             film%past = 0.0_dp
+            growth = largest_growth
+            solved_load = 0.0_dp
             do
-               do pass = 1, most_rest_passes
-                  call respond(contact, pass > free_rest_passes, film, load(1), by_gap(1), exists)
-                  found = exists
-                  if (.not. found) return
-                  call correct_flank(contact, 1.0_dp, (target - load(1))/by_gap(1), film, change)
-                  film%fourth = shares_of_fourth_order(film%pressures(:, 0))
-                  if (change < 1.0e-9_dp) exit
-               end do
-               found = change < 1.0e-9_dp
-               if (.not. found) return
-               if (.not. target < loads(flank)) exit
-               target = min(loads(flank), 1.4_dp*target)
+               call rest_under(contact, target, film, found)
+               if (found) then
+                  if (.not. target < loads(flank)) exit
+                  solved_load = target
+                  solved = film
+               else
+                  ! From the last load that was solved by a smaller step
+                  growth = sqrt(growth)
+                  if (growth < least_growth .or. .not. solved_load > 0.0_dp) return
+                  film = solved
+               end if
+               target = min(loads(flank), growth*solved_load)
             end do
          end associate
       end do
@@ -345,6 +355,27 @@ contains
          motion%states(j, :) = state_of(problem, gear, motion, 1)
       end do
    end subroutine rest_of_gear
+
+   !> A film in nodes at rest under a load, from one that is near it.
+   pure subroutine rest_under(contact, target, film, found)
+      type(nodal_contact_t), intent(in) :: contact
+      !> M [-]
+      real(dp), intent(in) :: target
+      type(nodal_flank_t), intent(inout) :: film
+      logical, intent(out) :: found
+      real(dp), parameter :: last_change = 1.0e-9_dp
+      real(dp) :: load, by_gap, change
+      integer :: pass
+
+      do pass = 1, most_rest_passes
+         call respond(contact, pass > free_rest_passes, film, load, by_gap, found)
+         if (.not. found) return
+         call correct_flank(contact, 1.0_dp, (target - load)/by_gap, film, change)
+         film%fourth = shares_of_fourth_order(film%pressures(:, 0))
+         found = change < last_change
+         if (found) return
+      end do
+   end subroutine rest_under
 
    !> z'' at a place of the histories [m/s2].
    pure real(dp) function acceleration(problem, gear, motion, force, place)

@@ -208,6 +208,23 @@ def test_a_motion_of_three_periods_and_an_irregular_one() -> None:
     assert told["orbit_text"].startswith("no Floquet multipliers: ") and "floquet_multipliers" not in told
 
 
+THICK = """&contact radius = 0.0136, length = 0.0098, stiffness = 1.37e8 /
+&lubricant viscosity = 0.32, pressure_viscosity = 1.93e-8, viscosity_law = 'roelands' /
+&kinematics rolling_speed = 3.46 /
+&load mass = 0.89, steady_force = 600.0, gravity = 0.0, frequency = 760.0, force_amplitude = 300.0 /
+&film law = 'elastohydrodynamic', model = 'resolved' /
+&solver until = 'periods', periods = 2, samples_per_period = 256 /
+&spectrum periods = 2, verify = .false. /
+"""
+
+
+def test_a_loaded_contact_in_thick_oil_starts() -> None:
+    """At M = 1, L = 19 a closure has its least film, and no load of its film at rest: nodes start all the same."""
+    told = [package.run(THICK, set={"film.nodes": nodes}).summary for nodes in (32, 64)]
+    assert told[0]["film_minimum"] == pytest.approx(told[1]["film_minimum"], rel=5e-3)
+    assert told[0]["acceleration_maximum"] == pytest.approx(told[1]["acceleration_maximum"], rel=3e-2)
+
+
 CALM = """&contact radius = 9.1e-3, length = 0.019, stiffness = 2.4e8 /
 &lubricant viscosity = 0.02, pressure_viscosity = 1.6e-8 /
 &kinematics rolling_speed = 2.8 /
