@@ -6,10 +6,10 @@
 
 Gears are those of closure_errors.py; heavy ones are shaken with 40 to 400 m/s2, and kept if the closure tells
 a largest load M = W/(E* R eps^2 l) from 2 to 12. Four periods from rest are solved in 32 nodes, the last two
-judged and verified in 64; one gear in five once more in 128 nodes at an accuracy of 1e-4, for which neighbours
+judged and verified in 64; one in five once more in 128 nodes at an accuracy of 1e-4, for which neighbours
 of a motion off its harmonics are not followed: that takes minutes. A verified verdict, or class, that differs
-from that of 128 nodes is wrong; classes off the harmonics count as one. A row is appended for each scene, so that a study goes
-on where it was left.
+from that of 128 nodes is wrong; classes off the harmonics count as one. A row is appended for each scene, so
+that a study goes on where it was left.
 """
 
 from __future__ import annotations

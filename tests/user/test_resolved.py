@@ -219,7 +219,7 @@ THICK = """&contact radius = 0.0136, length = 0.0098, stiffness = 1.37e8 /
 
 
 def test_a_loaded_contact_in_thick_oil_starts() -> None:
-    """At M = 1, L = 19 a closure has its least film, and no load of its film at rest: nodes start all the same."""
+    """At M = 1, L = 19 a closure has its least film, and no load of its film at rest; nodes start."""
     told = [package.run(THICK, set={"film.nodes": nodes}).summary for nodes in (32, 64)]
     assert told[0]["film_minimum"] == pytest.approx(told[1]["film_minimum"], rel=5e-3)
     assert told[0]["acceleration_maximum"] == pytest.approx(told[1]["acceleration_maximum"], rel=3e-2)
