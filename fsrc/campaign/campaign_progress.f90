@@ -194,7 +194,7 @@ contains
       if (self%tested > 0) line = line//', '//integer_text(self%uncertain)//' not verified'
    end function words
 
-   !> File for watchers; trouble with it is no trouble of the campaign.
+   !> File for watchers; where it cannot be written the campaign goes on.
    subroutine write_progress(self, now)
       class(campaign_progress_t), intent(inout) :: self
       real(dp), intent(in) :: now

@@ -1,5 +1,5 @@
 !> A task whose result is a table over many scenes that threads and ranks share, from its input to its files. Opening, ranks,
-!> progress and closing are here; what is its own a task says by extending the type.
+!> progress and closing are here; a task extends the type by the rest.
 module table_task
    use campaign_progress, only: campaign_progress_t
    use clock, only: wall_seconds

@@ -37,8 +37,9 @@ module flank_contact
       real(dp), dimension(most_films) :: value, by_film, by_other
    end type film_equations_t
 
-   !> What the state of a flank whose film is solved in nodes tells of it: its smallest film, its largest pressure, the gap that
-   !> the gear leaves, the film at the largest pressure, and the one in the middle. The pressures themselves stay with the engine.
+   !> What the state of a flank whose film is solved in nodes tells of it: its minimum film thickness, its largest pressure, the gap
+   !> that the gear leaves, the film at the largest pressure, and the one in the middle. The pressures themselves stay with the
+   !> engine.
    integer, parameter, public :: of_smallest_film = 1, of_pressure = 2, of_gap = 3, of_film_at_pressure = 4, of_central_film = 5
    character(*), parameter :: nodal_numbers(5) = [character(16) :: 'smallest_film', 'pressure', 'gap', 'film_at_pressure', &
                                                   'central_film']

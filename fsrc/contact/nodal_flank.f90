@@ -44,12 +44,12 @@ module nodal_flank
    !> Flank. Places of its histories: 0 the end of the step under way, 1 the present, 2 and on the times before.
    type, public :: nodal_flank_t
       logical :: in_nodes = .false.
-      !> G, M, smallest film H and its rate of change H'
+      !> G, M, minimum film thickness H and its rate of change H'
       real(dp), dimension(0:kept_times) :: gap = 0.0_dp, load = 0.0_dp, film = 0.0_dp, velocity = 0.0_dp
       !> Film at the node in the middle, which errors are judged by, and what is predicted of it
       real(dp) :: centre(0:kept_times) = 0.0_dp, guessed_centre = 0.0_dp
-      !> Largest pressure P, the film there, that where the gap is nearest without pressure, X = 0, and s, at the end of the step and
-      !> at present
+      !> Largest pressure P, the film there, that where the gap is nearest without pressure, X = 0, and s, at the end of the step
+      !> and at present
       real(dp), dimension(0:1) :: peak = 0.0_dp, film_at_peak = 0.0_dp, middle = 0.0_dp, bending = 0.0_dp
       !> Load predicted
       real(dp) :: guessed_load = 0.0_dp

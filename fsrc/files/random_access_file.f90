@@ -13,7 +13,7 @@ module random_access_file
 
    integer(c_int), parameter :: exclusive_without_waiting = 6, from_end = 2
 
-   !> What came of asking for the lock.
+   !> Outcomes of a request for the lock.
    integer, parameter, public :: lock_held = 1, lock_refused = 2, lock_unknown = 3, lock_failed = 4
 
    !> An open file. Its procedures change nothing in it but open and close.

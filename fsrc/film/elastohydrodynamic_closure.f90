@@ -8,9 +8,9 @@
 !>     g_r = (1 + 0.830 s) (eta(0.278 q)/eta0)^0.864 ,   g_s = (1 + 0.765 s)^(3/2) eta(0.213 q)/eta0 ,
 !>     s = M/H ,   q = M/b ,   b^2 = 2 H + 8 M/pi .
 !>
-!> H is the smallest film, Phi that of the Reynolds iso-viscous film. The flanks are compressed by M c in all, of which c is a number
-!> of the flank but for the width of the contact, - (2/pi) ln(0.516 H + 0.245 M). The constants are fitted to films solved in nodes:
-!> what they were fitted to, and how far they are off, stands in input/README.md.
+!> H is the minimum film thickness, Phi that of the Reynolds iso-viscous film. The flanks are compressed by M c in all, of which c
+!> is a number of the flank but for the width of the contact, - (2/pi) ln(0.516 H + 0.245 M). The constants are fitted to films
+!> solved in nodes: what they were fitted to, and how far they are off, stands in input/README.md.
 module elastohydrodynamic_closure
    use constants, only: pi
    use elementary_functions, only: exponentials, logarithm, logarithms
@@ -64,7 +64,7 @@ module elastohydrodynamic_closure
    real(dp), parameter :: beyond_all = 1.0e60_dp
 
    public :: closure_of, closure_velocity, closure_velocities, closure_load, closure_steady_film, closure_width, closure_film, &
-             closure_films, closure_pressure, is_fitted, error_of_loads, thicken
+             closure_films, closure_pressure, is_fitted, knows_rest, error_of_loads, thicken
 
 contains
 
@@ -273,6 +273,25 @@ contains
       end do
       film = exp(place)
    end function closure_steady_film
+
+   !> Whether the film at rest falls by a power of the load as that of oil does: it does not where both M and L are large, within
+   !> what the closure was fitted to in motion. d ln H/d ln M = (d ln g_r/d ln M - 1)/(1 - d ln g_r/d ln H).
+   elemental logical function knows_rest(closure, load)
+      type(closure_t), intent(in) :: closure
+      !> W [N]
+      real(dp), intent(in) :: load
+      !> Steady films of line contacts fall by a power of the load of 0.1 or more [-]
+      real(dp), parameter :: least_power = 0.05_dp
+      real(dp), dimension(most_films, 2) :: factor, by_film, by_load
+      real(dp) :: m, film
+
+      m = load/closure%load_unit
+      knows_rest = .true.
+      if (.not. m > 0.0_dp) return
+      film = closure_steady_film(closure, m)
+      call factors_of(closure, 1, [film], [m], factor, by_film, by_load)
+      knows_rest = 1.0_dp - m*by_load(1, 1) >= least_power*(1.0_dp - film*by_film(1, 1))
+   end function knows_rest
 
    !> Compression of the flanks by the width of the contact, - (2/pi) M ln(0.516 H + 0.245 M), and its slopes. A load below
    !> zero, which interpolation may ask of, has the width of none.

@@ -41,7 +41,7 @@ module film_law
       logical :: costly = .false.
       !> Whether its flanks bend: their compression follows the width of the contact, too
       logical :: bends = .false.
-      !> Whether its pressure is solved in nodes, so that its smallest film and largest pressure are numbers of a state
+      !> Whether its pressure is solved in nodes, so that its minimum film thickness and largest pressure are numbers of a state
       logical :: in_nodes = .false.
       !> Equivalent radius R of (2) [m]
       real(dp) :: radius = 0.0_dp
@@ -65,7 +65,7 @@ module film_law
       real(dp) :: scale = 0.0_dp
       !> Films that rupture by (18): A sqrt(h)/w [s m^(-1/2)]
       real(dp) :: squeeze_rate = 0.0_dp
-      !> Exact piezo-viscous film: B h^(3/2) [m^(3/2)]
+      !> Reynolds piezo-viscous film: B h^(3/2) [m^(3/2)]
       real(dp) :: pressure_rate = 0.0_dp
       !> Elastohydrodynamic film
       type(closure_t) :: closure = closure_t()
@@ -293,8 +293,8 @@ contains
       end associate
    end subroutine mixed_film_loads
 
-   !> Film that carries a static load without squeeze [m]: (23), (37) or the exact load, solved for h. 0 where no rigid film
-   !> carries it, and for a law that is not known.
+   !> Film that carries a static load without squeeze [m]: (23), (37) or the load of the Reynolds film, solved for h. 0 where no
+   !> rigid film carries it, and for a law that is not known.
    pure real(dp) function steady_film(film, load)
       type(film_t), intent(in) :: film
       !> Static load > 0 [N]
@@ -574,7 +574,7 @@ contains
       call published_piezo_viscous_load(film%piezo, film%rate, thickness, velocity, load, load_by_film, load_by_velocity)
    end subroutine load_piezo
 
-   !> Exact iso-viscous film; interface film_kernel.
+   !> Reynolds iso-viscous film; interface film_kernel.
    pure subroutine load_reynolds_iso(film, thickness, velocity, load, load_by_film, load_by_velocity)
       type(film_t), intent(in) :: film
       real(dp), intent(in) :: thickness
@@ -586,7 +586,7 @@ contains
       call reynolds_iso_viscous_load(film%scale, film%squeeze_rate, thickness, velocity, load, load_by_film, load_by_velocity)
    end subroutine load_reynolds_iso
 
-   !> Exact piezo-viscous film; interface film_kernel.
+   !> Reynolds piezo-viscous film; interface film_kernel.
    pure subroutine load_reynolds_piezo(film, thickness, velocity, load, load_by_film, load_by_velocity)
       type(film_t), intent(in) :: film
       real(dp), intent(in) :: thickness

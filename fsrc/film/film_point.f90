@@ -1,4 +1,4 @@
-!> A single film in the groups of the paper, and everything the film folder knows about it.
+!> A single film in the groups of the paper, with its loads, slopes, pressure and regime.
 module film_point
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use film_pressure, only: barus_pressure, exact_pressure, limiting_film_ratio, pressure_scale
@@ -103,7 +103,7 @@ contains
                                        response%stiffness, response%damping)
    end function published_response
 
-   !> Exact iso-viscous film.
+   !> Reynolds iso-viscous film.
    elemental function iso_viscous_response(contact, point) result(response)
       type(film_contact_t), intent(in) :: contact
       type(film_point_t), intent(in) :: point
@@ -116,7 +116,7 @@ contains
       response%damping = -response%damping
    end function iso_viscous_response
 
-   !> Exact piezo-viscous film; NaN where no rigid one exists.
+   !> Reynolds piezo-viscous film; NaN where no rigid one exists.
    elemental function piezo_viscous_response(contact, point) result(response)
       type(film_contact_t), intent(in) :: contact
       type(film_point_t), intent(in) :: point
@@ -163,8 +163,8 @@ contains
       limit_of_point = limiting_film_ratio(point%speed_group, point%squeeze_ratio)*contact%radius
    end function limit_of_point
 
-   !> The Reference solution: load [N], rupture angle [rad] and highest pressure [Pa] of the numerical solution; all NaN
-   !> where it finds no film.
+   !> Reference solution: load [N], rupture angle [rad] and highest pressure [Pa] of the numerical solution; all NaN where this
+   !> finds no film.
    pure subroutine solve_numerically(contact, point, roelands, cells, load, rupture_angle, pressure)
       type(film_contact_t), intent(in) :: contact
       type(film_point_t), intent(in) :: point

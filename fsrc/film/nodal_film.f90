@@ -4,8 +4,8 @@
 !>     H = G + M c + X^2/2 - (4/pi) integral of P ln|X - X'| dX' ,      M = integral of P dX .
 !>
 !> Nodes stand at equal distances in xi, X = S (sigma + tan(xi) (1 + beta tan(xi)^2)), from -pi/2 to pi/2, so that no inlet is cut
-!> off. In oil of constant viscosity the film is thinnest and ruptures at the outlet, where sigma > 0 has the nodes closer: a rupture
-!> between two nodes is off by the square of their distance. Oil that pressure thickens needs them at its inlet as well.
+!> off. In oil of constant viscosity the film is thinnest and ruptures at the outlet, where sigma > 0 has the nodes closer: a
+!> rupture between two nodes is off by the square of their distance. Oil that pressure thickens needs them at its inlet as well.
 !> Fluxes and films stand at the edges of cells between the nodes, and each cell balances what flows in, what flows out and what it
 !> holds. Between nodes the pressure is a cubic in xi, whose deflection is integrated without any error of its own. Where the film
 !> ruptures pressures are 0, and a cell there may lose oil but not gain any.
@@ -484,7 +484,7 @@ contains
       films(1::2) = gap + 0.5_dp*grid%edge**2 + matmul(grid%film, pressures)
    end function films_along
 
-   !> Smallest film over X, between nodes and edges too.
+   !> Minimum film thickness over X, between nodes and edges too.
    pure real(dp) function smallest_of_films(films)
       !> As of films_along [-]
       real(dp), intent(in) :: films(:)
@@ -494,7 +494,7 @@ contains
       smallest_of_films = -top
    end function smallest_of_films
 
-   !> Smallest film over X.
+   !> Minimum film thickness over X.
    pure real(dp) function smallest_film(grid, gap, pressures)
       type(nodal_grid_t), intent(in) :: grid
       !> G [-]

@@ -64,7 +64,7 @@ contains
       pressure_rate = 6.0_dp*sqrt(2.0_dp*radius)*pressure_viscosity*speed*viscosity
    end function pressure_rate
 
-   !> Exact iso-viscous load.
+   !> Load of the Reynolds iso-viscous film.
    elemental subroutine reynolds_iso_viscous_load(scale, rate, film, velocity, load, load_by_film, load_by_velocity)
       !> 12 l u eta0 R [N m]
       real(dp), intent(in) :: scale
@@ -91,7 +91,7 @@ contains
       load_by_velocity = scale*inverse*phi_by_a*a_by_velocity
    end subroutine reynolds_iso_viscous_load
 
-   !> Exact piezo-viscous load; where no rigid film exists, a load above every real one, without slopes.
+   !> Load of the Reynolds piezo-viscous film; where no rigid film exists, a load above every real one, without slopes.
    elemental subroutine reynolds_piezo_viscous_load(scale, rate, b_rate, film, velocity, load, load_by_film, load_by_velocity)
       !> 12 l u eta0 R [N m]
       real(dp), intent(in) :: scale
@@ -117,7 +117,7 @@ contains
                           load_by_velocity)
    end subroutine reynolds_piezo_viscous_load
 
-   !> Exact piezo-viscous loads of many films, each with coefficients of its own: the same as those of
+   !> Loads of many Reynolds piezo-viscous films, each with coefficients of its own: the same as those of
    !> `reynolds_piezo_viscous_load`, at a fraction of the time.
    pure subroutine reynolds_piezo_viscous_load_array(n, scale, rate, b_rate, film, velocity, load, &
       load_by_film, load_by_velocity)

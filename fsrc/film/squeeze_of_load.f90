@@ -36,7 +36,8 @@ module squeeze_of_load
 
 contains
 
-   !> Exact iso-viscous film: A of Phi(A) = phi, and dA/dphi. Tabulated where a film of some use carries the load, else solved for.
+   !> Reynolds iso-viscous film: A of Phi(A) = phi, and dA/dphi. Tabulated where a film of some use carries the load, else solved
+   !> for.
    elemental subroutine iso_viscous_squeeze(phi, a, a_by_load, outcome)
       !> Load group W h/(12 l u eta0 R) [-]
       real(dp), intent(in) :: phi
@@ -92,8 +93,8 @@ contains
       a_by_load = slope*squeezes(2, piece, law)
    end subroutine look_up
 
-   !> Exact piezo-viscous film: A of Psi(A, B) = psi. A film that is squeezed faster and faster ceases to exist at B max p*(A) = 1
-   !> under a finite load, which it reaches with infinite slope.
+   !> Reynolds piezo-viscous film: A of Psi(A, B) = psi. A film that is squeezed faster and faster ceases to exist at B max p*(A) =
+   !> 1 under a finite load, which it reaches with infinite slope.
    elemental subroutine piezo_viscous_squeeze(psi, b, near, a, a_by_load, a_by_b, outcome)
       !> Load group W h/(12 l u eta0 R) [-]
       real(dp), intent(in) :: psi

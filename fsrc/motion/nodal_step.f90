@@ -1,5 +1,5 @@
-!> Steps of a gear whose flanks bend under films solved in nodes of pressure (module nodal_flank): backward differences of third order
-!> of variable step, in Moes' variables,
+!> Steps of a gear whose flanks bend under films solved in nodes of pressure (module nodal_flank): backward differences of third
+!> order of variable step, in Moes' variables,
 !>
 !>     mu Z'' = M_1 - M_2 - F(T) ,   G_1 = Z ,   G_2 = B - Z .
 !>
@@ -67,8 +67,8 @@ module nodal_step
       real(dp), allocatable :: states(:, :)
    end type motion_t
 
-   !> Smallest film of a flank, largest pressure, gap, film at the largest pressure, and film in the middle: the numbers of a state
-   !> behind the compressions, flank by flank.
+   !> Minimum film thickness of a flank, largest pressure, gap, film at the largest pressure, and film in the middle: the numbers of
+   !> a state behind the compressions, flank by flank.
    integer, parameter :: numbers_of_flank = 5
 
    !> First step of a motion [periods]

@@ -179,13 +179,14 @@ contains
       associate (record => group%records(place), tight_record => tight%records(tight_place), verdict => group%verdicts(place), &
                  tight_verdict => tight%verdicts(tight_place), problem => resolved%problem, &
                  samples => group%endings(place)%samples, tight_samples => tight%endings(tight_place)%samples)
-         unclosed = first_doubt([doubt_of_windows(problem, record, tight_record, resolved%noise_floor, tight_noise, verdict, &
+         ! That another solution settles says more than where this one went.
+         unclosed = first_doubt([behind, &
+                                 doubt_of_windows(problem, record, tight_record, resolved%noise_floor, tight_noise, verdict, &
                                                   tight_verdict, &
                                                   doubt_of_samples(method, tighter%samples_per_period, verdict, tight_verdict, &
                                                                    tight%classified_by(tight_place)), &
                                                   samples/tighter%samples_per_period, tight%endings(tight_place)%numbers, &
-                                                  choice%verification_tolerance), &
-                                 behind])
+                                                  choice%verification_tolerance)])
          same = same_phase(group%states(:samples, of_film, place), tight%states(:tight_samples, of_film, tight_place), &
                            tighter%samples_per_period, &
                            group%endings(place)%status == status_steady .or. tight%endings(tight_place)%status == status_steady)

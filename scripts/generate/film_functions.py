@@ -33,7 +33,7 @@ def rupture_tangent(a):
 
 
 class Film:
-    """Exact film at one A: rupture, load, peak pressure and their slopes."""
+    """Reynolds film at one A: rupture, load, peak pressure and their slopes."""
 
     def __init__(self, a):
         self.a = a

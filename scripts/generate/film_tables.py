@@ -1,4 +1,4 @@
-"""Tables of the exact film, one for all A.
+"""Tables of the Reynolds film, one for all A.
 
 The film depends on A = 4 w*/sqrt(2 h*) alone. All its quantities are analytic on the whole real line
 of A and at both its ends, in powers of 1/A; they are singular at A = +-2i (tan x_e = +-i). The coordinate

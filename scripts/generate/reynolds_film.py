@@ -22,7 +22,7 @@ TARGET = ROOT / "fsrc" / "film" / "coefficients"
 
 def main() -> int:
     """Write the modules, or compare them with the files."""
-    parser = argparse.ArgumentParser(description="Coefficient tables of the exact film.")
+    parser = argparse.ArgumentParser(description="Coefficient tables of the Reynolds film.")
     parser.add_argument("--check", action="store_true", help="compare with the files instead of writing them")
     arguments = parser.parse_args()
     mp.dps = DIGITS

@@ -1,4 +1,4 @@
-"""Tables of the stiffness of the exact film on fast separation, where its own terms cancel.
+"""Tables of the stiffness of the Reynolds film on fast separation, where its own terms cancel.
 
 At a given velocity x = 1/A**2 goes with the film h. The load W goes with Psi/h, so with Psi/x = Y, which
 tends to a constant as x -> 0: the load of a film that separates fast hardly depends on its thickness, and
@@ -48,7 +48,7 @@ def separation_module():
         columns.append(powers(chebyshev_coefficients(values, TERMS[1])))
     table = [powers_from_zero([column[j] for column in columns], TERMS[0]) for j in range(TERMS[1])]
     text = [
-        "!> Generated tables of the exact film on fast separation. Do not edit.",
+        "!> Generated tables of the Reynolds film on fast separation. Do not edit.",
         f"!> Made by: {COMMAND}",
         "!>",
         "!> Ascending powers of u = (first_group/A)**2, 0 <= u <= 1, where the film separates faster than",

@@ -1,4 +1,4 @@
-"""Tables of the exact film for Taylor series of the motion: polynomials in A, and in A and sigma.
+"""Tables of the Reynolds film for Taylor series of the motion: polynomials in A, and in A and sigma.
 
 Taylor series of the motion need the derivatives of Phi(A), which no coordinate but A itself gives away. Phi,
 and the load of the published film with its rupture solved, are therefore tabulated once more, as polynomials
@@ -45,7 +45,7 @@ REGISTER = 8
 
 
 def exact_load(a):
-    """Phi of the exact film, eq (21) corrected."""
+    """Phi of the Reynolds film, eq (21) corrected."""
     return Film(a).phi
 
 
@@ -55,7 +55,7 @@ def published_load(a):
 
 
 def exact_of_tangent(t):
-    """A and Phi of the exact film whose tangent of the rupture angle is t, and the slopes of both."""
+    """A and Phi of the Reynolds film whose tangent of the rupture angle is t, and the slopes of both."""
     a, slope, x = group_of_tangent(t)
     swept = x + mp.pi / 2 + mp.sin(x) * mp.cos(x)
     quarter = mp.cos(x) ** 4 / 4
@@ -168,7 +168,7 @@ def pieces_module():
         "   implicit none (type, external)",
         "   private",
         "",
-        "   !> Loads: Phi of the exact film, eq (21) corrected; the published one, eq (24) with its rupture",
+        "   !> Loads: Phi of the Reynolds film, (21) corrected; the published one, (24) with its rupture",
         "   !> from (18), over its rolling term.",
         "   integer, parameter, public :: exact_load = 1, published_load = 2",
         "   !> Their limits when the film separates fast",

@@ -118,6 +118,37 @@ def test_a_gear_says_where_the_closure_was_not_fitted(tmp_path: Path) -> None:
     assert np.isfinite(hard["acceleration_maximum"])
 
 
+HELD = """&contact radius = 0.0136, length = 0.0098, stiffness = 1.37e8 /
+&lubricant viscosity = 0.32, pressure_viscosity = 1.93e-8, viscosity_law = 'roelands' /
+&kinematics rolling_speed = 3.46 /
+&load mass = 0.89, gravity = 0.0, frequency = 760.0, steady_force = {force}, force_amplitude = 3.0 /
+&film law = 'elastohydrodynamic', model = '{model}' /
+&solver until = 'periods', periods = 8, samples_per_period = 512, starts = 1 /
+&spectrum periods = 2, verify = .false. /
+"""
+
+
+def test_a_film_at_rest_that_does_not_fall_with_the_load_is_told(run, tmp_path: Path) -> None:
+    """By summary, log and check, whether the motion is solved or not."""
+    # M = 0.88 and 1.23: between them the film at rest of the closure is least.
+    told = {force: package.run(HELD.format(force=force, model="closure")) for force in (500.0, 700.0)}
+    assert told[500.0].summary["closure_range"] == "within"
+    assert told[700.0].summary["closure_range"] == "outside"
+    films = [
+        package.run(HELD.format(force=force, model="closure"), set={"solver.periods": 2}).summary[
+            "steady_film"
+        ]
+        for force in (500.0, 510.0, 700.0, 710.0)
+    ]
+    assert films[1] < films[0] and films[3] > films[2]
+    for force, extra in ((500.0, 0), (600.0, 1), (700.0, 1)):
+        (tmp_path / "scene.nml").write_text(HELD.format(force=force, model="closure"))
+        for options in ((), ("--check",)):
+            ended = run("--overwrite", *options, "scene.nml", cwd=tmp_path)
+            assert ended.stdout.count("no longer falls with the load") == extra, (force, options)
+    assert package.run(HELD.format(force=700.0, model="automatic")).summary["film_model"] == "resolved"
+
+
 def test_drive_rattle_is_that_of_a_torque_that_reverses(repository: Path) -> None:
     """The load reverses, both flanks are struck; under a mean above the amplitudes the flanks never part."""
     scene = repository / "input" / "drive_rattle.nml"

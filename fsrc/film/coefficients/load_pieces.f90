@@ -9,7 +9,7 @@ module load_pieces
    implicit none (type, external)
    private
 
-   !> Loads: Phi of the exact film, eq (21) corrected; the published one, eq (24) with its rupture
+   !> Loads: Phi of the Reynolds film, (21) corrected; the published one, (24) with its rupture
    !> from (18), over its rolling term.
    integer, parameter, public :: exact_load = 1, published_load = 2
    !> Their limits when the film separates fast

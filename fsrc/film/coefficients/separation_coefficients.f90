@@ -1,4 +1,4 @@
-!> Generated tables of the exact film on fast separation. Do not edit.
+!> Generated tables of the Reynolds film on fast separation. Do not edit.
 !> Made by: python scripts/generate/reynolds_film.py
 !>
 !> Ascending powers of u = (first_group/A)**2, 0 <= u <= 1, where the film separates faster than
