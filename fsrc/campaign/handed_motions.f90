@@ -12,9 +12,9 @@ module handed_motions
    use rattle_class, only: class_irregular
    use resolved_scene, only: resolved_scene_t
    use row_motions, only: are_alike, handed_state, row_motions_t, solve_trials, trial_t
-   use sampling, only: sample_plan_t
-   use scene_orbit, only: nearby_orbit
+   use sampling, only: method_grid, sample_plan_t
    use scene_group, only: scene_group_t
+   use scene_orbit, only: nearby_orbit
    use scene_types, only: scene_t, spectrum_choice_t
    use settled_motion, only: near_states, settled_motion_t
    use signals, only: must_stop
@@ -35,15 +35,17 @@ module handed_motions
       type(settled_motion_t), allocatable :: unsettled(:)
    end type handed_t
 
-   public :: find_other_motions, hand_on_motions
+   public :: find_other_motions
 
 contains
 
-   !> Motions from all starts of the scenes but the first, rest. One from rest that has not shown what it is, is followed on before
-   !> them, others after them. After a signal to stop they are of no use.
-   subroutine find_other_motions(scene, resolved, choices, requests, with_verdicts, order, space, found, error)
+   !> Find the motions of the scenes of a batch beside those from rest. After a signal to stop they are of no use.
+   subroutine find_other_motions(scene, plan, first, resolved, choices, requests, with_verdicts, order, space, found, error)
       !> Base scene
       type(scene_t), intent(in) :: scene
+      !> The plan, and number of the first scene of the batch
+      type(sample_plan_t), intent(in) :: plan
+      integer(int64), intent(in) :: first
       !> Scenes of the batch, limits of their classes, and what was asked of the engine
       type(resolved_scene_t), intent(in) :: resolved(:)
       type(spectrum_choice_t), intent(in) :: choices(:)
@@ -54,86 +56,122 @@ contains
       integer, intent(in) :: order(:)
       !> Work space
       type(scene_group_t), intent(inout) :: space
+      !> With the motions from rest
       type(row_motions_t), intent(inout) :: found(:)
       !> Set if there is no memory for the samples of a scene
       type(error_t), allocatable, intent(out) :: error
-      type(motion_start_t), allocatable :: starts(:, :)
-      type(motion_state_t) :: state
-      type(trial_t), allocatable :: trials(:, :)
-      integer, allocatable :: left(:)
-      logical, allocatable :: follows(:)
-      integer :: number, i
+      integer :: place
 
-      do i = 1, size(order)
-         found(order(i))%told%one_start_reason = one_start_reason(resolved(order(i))%problem, scene%solver%method)
+      do place = 1, size(order)
+         found(order(place))%told%one_start_reason = one_start_reason(resolved(order(place))%problem, scene%solver%method)
       end do
-      left = pack(order, found(order)%told%one_start_reason == several_starts .and. found(order)%told%starts_solved > 0)
-      allocate (trials(size(left), scene%solver%starts), starts(scene%solver%starts, size(left)), follows(size(left)))
-      do i = 1, size(left)
-         associate (own => found(left(i)))
-            trials(i, 1) = trial_t(left(i), own%settled(1)%states(:, 1), is_own=.true.)
-            follows(i) = own%settled(1)%period == 0 .and. own%told%motions(1)%class /= class_irregular
-         end associate
-         starts(:, i) = motion_starts(resolved(left(i))%problem, scene%solver%starts, start_seed)
-      end do
-      call follow_on(resolved, choices, requests, with_verdicts, follows, trials(:, 1), space, found, error)
+      call try_starts(pack(order, found(order)%told%one_start_reason == several_starts .and. found(order)%told%starts_solved > 0))
       if (must_stop() .or. allocated(error)) return
-      do number = 2, scene%solver%starts
-         do i = 1, size(left)
-            state = state_of_start(resolved(left(i))%problem, starts(number, i))
-            trials(i, number) = trial_t(left(i), state%numbers)
+      if (scene%campaign%neighbours .and. plan%method == method_grid) call hand_on_motions
+
+   contains
+
+      !> Follow all starts but the first, rest. A motion from rest that has not shown what it is, is followed on before them, others
+      !> after them.
+      subroutine try_starts(scenes)
+         !> Places of the scenes that have several starts
+         integer, intent(in) :: scenes(:)
+         type(motion_start_t) :: starts(scene%solver%starts, size(scenes))
+         type(motion_state_t) :: state
+         type(trial_t) :: trials(size(scenes), scene%solver%starts)
+         logical :: follows(size(scenes))
+         integer :: number, i
+
+         do i = 1, size(scenes)
+            associate (own => found(scenes(i)))
+               trials(i, 1) = trial_t(scenes(i), own%settled(1)%states(:, 1), is_own=.true.)
+               follows(i) = own%settled(1)%period == 0 .and. own%told%motions(1)%class /= class_irregular
+            end associate
+            starts(:, i) = motion_starts(resolved(scenes(i))%problem, scene%solver%starts, start_seed)
          end do
-         call solve_trials(resolved, choices, requests, with_verdicts, trials(:, number), space, found, error)
+         call follow_on(follows, trials(:, 1))
          if (must_stop() .or. allocated(error)) return
-      end do
-      ! Of starts that settle slowly the next one is followed on only if those before it have shown where they lead.
-      follows = .true.
-      do number = 2, scene%solver%starts
-         follows = follows .and. [(all(found(left(i))%told%motions%class /= class_irregular), i=1, size(left))]
-         trials(:, number)%goes_on = .true.
-         call follow_on(resolved, choices, requests, with_verdicts, follows .and. trials(:, number)%is_open, trials(:, number), &
-                        space, found, error)
-         if (must_stop() .or. allocated(error)) return
-         follows = follows .and. .not. trials(:, number)%is_open
-      end do
+         do number = 2, scene%solver%starts
+            do i = 1, size(scenes)
+               state = state_of_start(resolved(scenes(i))%problem, starts(number, i))
+               trials(i, number) = trial_t(scenes(i), state%numbers)
+            end do
+            call try(trials(:, number))
+            if (must_stop() .or. allocated(error)) return
+         end do
+         ! Of starts that settle slowly the next one is followed on only if those before it have shown where they lead.
+         follows = .true.
+         do number = 2, scene%solver%starts
+            follows = follows .and. [(all(found(scenes(i))%told%motions%class /= class_irregular), i=1, size(scenes))]
+            trials(:, number)%goes_on = .true.
+            call follow_on(follows .and. trials(:, number)%is_open, trials(:, number))
+            if (must_stop() .or. allocated(error)) return
+            follows = follows .and. .not. trials(:, number)%is_open
+         end do
+      end subroutine try_starts
+
+      !> Hand every motion to the neighbours that have none like it, in rounds ordered by the numbers of the scenes.
+      subroutine hand_on_motions
+         type(handed_t) :: handed(size(found))
+         type(trial_t), allocatable :: trials(:)
+         integer :: i, last
+
+         do i = 1, size(handed)
+            allocate (handed(i)%scenes(0), handed(i)%places(0), handed(i)%unsettled(0))
+         end do
+         do
+            call next_round(plan, first, resolved, found, handed, trials)
+            if (size(trials) == 0) return
+            call try(trials)
+            if (must_stop() .or. allocated(error)) return
+            trials%goes_on = .true.
+            call follow_on(trials%is_next_to_one, trials)
+            if (must_stop() .or. allocated(error)) return
+            do i = 1, size(trials)
+               if (trials(i)%settled) cycle
+               associate (to => handed(trials(i)%scene))
+                  ! The trials of a scene are the last ones that it was handed, in their order.
+                  last = size(to%scenes) - count(trials(i:)%scene == trials(i)%scene) + 1
+                  to%unsettled = [to%unsettled, found(to%scenes(last))%settled(to%places(last))]
+               end associate
+            end do
+         end do
+      end subroutine hand_on_motions
+
+      !> Follow the ends of motions on, each time by as many periods as before, until they have shown what they are. What settles
+      !> slowly is next to a stable periodic motion: where Newton's method finds one, the motion goes on from there.
+      subroutine follow_on(followed, trials)
+         !> Which of the trials
+         logical, intent(in) :: followed(:)
+         type(trial_t), intent(inout) :: trials(:)
+         type(trial_t), allocatable :: these(:)
+         integer, allocatable :: left(:)
+         integer :: extension, i
+
+         left = pack([(i, i=1, size(trials))], followed)
+         do extension = 1, max(own_extensions, other_extensions)
+            left = pack(left, extension <= merge(own_extensions, other_extensions, trials(left)%is_own))
+            if (size(left) == 0) return
+            these = trials(left)
+            do i = 1, size(these)
+               if (must_stop()) return
+               call go_to_orbit(resolved(these(i)%scene)%problem, these(i))
+            end do
+            call try(these)
+            if (must_stop() .or. allocated(error)) return
+            trials(left) = these
+            left = pack(left, these%is_open)
+         end do
+      end subroutine follow_on
+
+      !> Solve some starts side by side.
+      subroutine try(trials)
+         type(trial_t), intent(inout) :: trials(:)
+
+         call solve_trials(resolved, choices, requests, with_verdicts, trials, space, found, error)
+      end subroutine try
+
    end subroutine find_other_motions
-
-   !> Follow the ends of motions on, each time by as many periods as before, until they have shown what they are. What settles
-   !> slowly is next to a stable periodic motion: where Newton's method finds one, the motion goes on from there.
-   subroutine follow_on(resolved, choices, requests, with_verdicts, followed, trials, space, found, error)
-      !> Scenes of the batch, limits of their classes, and what was asked of the engine
-      type(resolved_scene_t), intent(in) :: resolved(:)
-      type(spectrum_choice_t), intent(in) :: choices(:)
-      type(request_t), intent(in) :: requests(:)
-      !> Whether the verdicts of the motions are asked for
-      logical, intent(in) :: with_verdicts
-      !> Which of the trials
-      logical, intent(in) :: followed(:)
-      type(trial_t), intent(inout) :: trials(:)
-      !> Work space
-      type(scene_group_t), intent(inout) :: space
-      type(row_motions_t), intent(inout) :: found(:)
-      !> Set if there is no memory for the samples of a scene
-      type(error_t), allocatable, intent(out) :: error
-      type(trial_t), allocatable :: these(:)
-      integer, allocatable :: left(:)
-      integer :: extension, i
-
-      left = pack([(i, i=1, size(trials))], followed)
-      do extension = 1, max(own_extensions, other_extensions)
-         left = pack(left, extension <= merge(own_extensions, other_extensions, trials(left)%is_own))
-         if (size(left) == 0) return
-         these = trials(left)
-         do i = 1, size(these)
-            if (must_stop()) return
-            call go_to_orbit(resolved(these(i)%scene)%problem, these(i))
-         end do
-         call solve_trials(resolved, choices, requests, with_verdicts, these, space, found, error)
-         if (must_stop() .or. allocated(error)) return
-         trials(left) = these
-         left = pack(left, these%is_open)
-      end do
-   end subroutine follow_on
 
    !> Where Newton's method finds a stable periodic motion next to the state of a trial, the trial starts on it.
    subroutine go_to_orbit(problem, trial)
@@ -147,48 +185,6 @@ contains
       if (trial%is_own .and. .not. are_near(problem, near_states(problem), orbit%state, trial%state)) return
       trial%state = orbit%state
    end subroutine go_to_orbit
-
-   !> Hand every motion to the neighbours that have none like it, in rounds ordered by the numbers of the scenes.
-   subroutine hand_on_motions(plan, first, resolved, choices, requests, with_verdicts, space, found, error)
-      type(sample_plan_t), intent(in) :: plan
-      !> Number of the first scene of the batch
-      integer(int64), intent(in) :: first
-      !> Scenes of the batch, limits of their classes, and what was asked of the engine
-      type(resolved_scene_t), intent(in) :: resolved(:)
-      type(spectrum_choice_t), intent(in) :: choices(:)
-      type(request_t), intent(in) :: requests(:)
-      !> Whether the verdicts of the motions are asked for
-      logical, intent(in) :: with_verdicts
-      !> Work space
-      type(scene_group_t), intent(inout) :: space
-      type(row_motions_t), intent(inout) :: found(:)
-      !> Set if there is no memory for the samples of a scene
-      type(error_t), allocatable, intent(out) :: error
-      type(handed_t) :: handed(size(found))
-      type(trial_t), allocatable :: trials(:)
-      integer :: i, last
-
-      do i = 1, size(handed)
-         allocate (handed(i)%scenes(0), handed(i)%places(0), handed(i)%unsettled(0))
-      end do
-      do
-         call next_round(plan, first, resolved, found, handed, trials)
-         if (size(trials) == 0) return
-         call solve_trials(resolved, choices, requests, with_verdicts, trials, space, found, error)
-         if (must_stop() .or. allocated(error)) return
-         trials%goes_on = .true.
-         call follow_on(resolved, choices, requests, with_verdicts, trials%is_next_to_one, trials, space, found, error)
-         if (must_stop() .or. allocated(error)) return
-         do i = 1, size(trials)
-            if (trials(i)%settled) cycle
-            associate (to => handed(trials(i)%scene))
-               ! The trials of a scene are the last ones that it was handed, in their order.
-               last = size(to%scenes) - count(trials(i:)%scene == trials(i)%scene) + 1
-               to%unsettled = [to%unsettled, found(to%scenes(last))%settled(to%places(last))]
-            end associate
-         end do
-      end do
-   end subroutine hand_on_motions
 
    !> Starts of the next round. Of motions that are alike a scene is handed one in a round, and none any more if one did not settle.
    subroutine next_round(plan, first, resolved, found, handed, trials)

@@ -11,7 +11,7 @@ module solve_chunk
    use force, only: force_of, largest_oscillation
    use grid_blocks, only: block_scenes
    use group_verification, only: compared, verify_group
-   use handed_motions, only: find_other_motions, hand_on_motions
+   use handed_motions, only: find_other_motions
    use kinds, only: dp, int64
    use memory_need, only: window_bytes
    use node_extremes, only: seen_quantities
@@ -20,7 +20,7 @@ module solve_chunk
       needs_of, needs_of_choice, needs_orbit, needs_regime, needs_spectrum, needs_verified_impacts, quantity_film_model
    use resolved_scene, only: engine_request => request_of, resolve, resolved_scene_t
    use row_motions, only: motion_from_rest, row_motions_t
-   use sampling, only: chunk_values, largest_value, method_grid, sample_plan_t
+   use sampling, only: chunk_values, largest_value, sample_plan_t
    use scene_group, only: classify_group, find_orbits, follow_group, scene_group_t, solve_group
    use scene_status, only: is_success, status_invalid
    use scene_types, only: least_static_load, method_taylor, scene_t, spectrum_choice_t
@@ -216,8 +216,11 @@ contains
          end associate
       end do
       if (needed(needs_starts)) then
-         call find_motions(scene, plan, first, resolved, choices, requests, needed(needs_motion_verdicts), order(:solved), space, &
-                           found, error)
+         do i = 1, size(found)
+            if (.not. allocated(found(i)%settled)) allocate (found(i)%settled(0))
+         end do
+         if (has_starts(scene)) call find_other_motions(scene, plan, first, resolved, choices, requests, &
+                                                        needed(needs_motion_verdicts), order(:solved), space%tight, found, error)
          if (must_stop() .or. allocated(error)) return
          do i = 1, solved
             space%judged%judged = allocated(found(order(i))%told%motions)
@@ -268,37 +271,6 @@ contains
          call record_row(scene, number, values, judged, row)
       end if
    end subroutine solve_row_in_nodes
-
-   !> Motions of scenes from other starts than rest, and from their neighbours.
-   subroutine find_motions(scene, plan, first, resolved, choices, requests, with_verdicts, order, space, found, error)
-      !> Base scene
-      type(scene_t), intent(in) :: scene
-      !> The plan, and number of the first scene
-      type(sample_plan_t), intent(in) :: plan
-      integer(int64), intent(in) :: first
-      type(resolved_scene_t), intent(in) :: resolved(:)
-      type(spectrum_choice_t), intent(in) :: choices(:)
-      type(request_t), intent(in) :: requests(:)
-      !> Whether the verdicts of the motions are asked for
-      logical, intent(in) :: with_verdicts
-      !> Scenes that were solved, in this order
-      integer, intent(in) :: order(:)
-      type(chunk_space_t), intent(inout) :: space
-      !> With the motions from rest
-      type(row_motions_t), intent(inout) :: found(:)
-      !> Set if there is no memory for the samples of a scene
-      type(error_t), allocatable, intent(out) :: error
-      integer :: i
-
-      do i = 1, size(found)
-         if (.not. allocated(found(i)%settled)) allocate (found(i)%settled(0))
-      end do
-      if (.not. has_starts(scene)) return
-      call find_other_motions(scene, resolved, choices, requests, with_verdicts, order, space%tight, found, error)
-      if (must_stop() .or. allocated(error)) return
-      if (scene%campaign%neighbours .and. plan%method == method_grid) &
-         call hand_on_motions(plan, first, resolved, choices, requests, with_verdicts, space%tight, found, error)
-   end subroutine find_motions
 
    !> Solve scenes that ask for the same, find their classes, and whether they stand, as far as columns ask for it.
    subroutine solve_side_by_side(resolved, starts, choices, request, needed, space, error)

@@ -91,8 +91,8 @@ module judged_scene
       type(coexisting_motions_t) :: coexisting
    end type judged_scene_t
 
-   !> Change of the largest pressure by twice as many nodes up to which it counts as resolved [-]
-   real(dp), parameter :: resolved_pressure = 0.02_dp
+   !> Error of the largest pressure up to which it counts as resolved, twice its change by twice as many nodes [-]
+   real(dp), parameter :: resolved_pressure = 0.04_dp
 
    !> Codes of film_model
    real(dp), parameter, public :: film_model_closure = 1.0_dp, film_model_nodes = 2.0_dp, film_model_stopped = 3.0_dp
@@ -255,7 +255,7 @@ contains
             if (verification%exists .and. verification%pressure_error >= 0.0_dp) value = verification%pressure_error
          case (quantity_pressure_resolved)
             if (verification%exists .and. verification%pressure_error >= 0.0_dp) &
-               value = flag(verification%pressure_error < 2.0_dp*resolved_pressure)
+               value = flag(verification%pressure_error < resolved_pressure)
          case (quantity_film_at_pressure_maximum)
             if (problem%contact%film%in_nodes) value = film_of_peak(judged, of_film_at_pressure)
          case (quantity_central_film)

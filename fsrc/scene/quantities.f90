@@ -384,7 +384,7 @@ module quantities
       quantity_t(quantity_pressure_error, 'pressure_error', '-', a_number, part_regime, needs_verification, 'summary', &
          'Of films in nodes: twice the share by which twice as many nodes change pressure_maximum.', digits=2), &
       quantity_t(quantity_pressure_resolved, 'pressure_resolved', '-', a_flag, part_regime, needs_verification, 'summary', &
-         'Of films in nodes: whether that share is less than a fiftieth. The peak of Roelands'' oil at the outlet may be '// &
+         'Of films in nodes: whether pressure_error is less than 0.04. The peak of Roelands'' oil at the outlet may be '// &
          'narrower than nodes are apart.'), &
       quantity_t(quantity_film_at_pressure_maximum, 'film_at_pressure_maximum', 'm', a_number, part_regime, needs_regime, &
          'summary', 'Of films in nodes: the film where and when the pressure is largest; film_minimum is the smallest over all '// &

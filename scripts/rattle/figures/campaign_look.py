@@ -62,7 +62,7 @@ LOUDEST = {
     "rattle_class": "loudest_class",
     "film_force_rms": "loudest_film_force_rms",
 }
-SEVERAL_HATCH = "xxx"
+SEVERAL_HATCH = 3 * "x"
 MICROMETRES = "\N{MICRO SIGN}m"
 
 
