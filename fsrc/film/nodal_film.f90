@@ -546,10 +546,12 @@ contains
       real(dp) :: slope, bend, twist, place, root, between
       integer :: i
 
-      ! No list is empty, which compilers cannot know.
-      i = max(1, maxloc(values, dim=1))
-      top = values(i)
+      top = -huge(top)
+      i = maxloc(values, dim=1)
       at = real(i, dp)
+      ! No list is empty, which compilers cannot know.
+      if (i == 0) return
+      top = values(i)
       if (i == 1 .or. i == size(values)) return
       if (values(i - 1) > values(i + 1)) i = i - 1
       if (i == 1 .or. i > size(values) - 2) return
