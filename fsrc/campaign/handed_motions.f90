@@ -7,14 +7,14 @@ module handed_motions
    use kinds, only: dp, int64
    use known_motions, only: are_near
    use motion_start, only: motion_start_t, motion_starts, one_start_reason, several_starts
-   use periodic_orbit, only: attracting_period, periodic_orbit_t
+   use periodic_orbit, only: periodic_orbit_t
    use problem, only: problem_t
    use rattle_class, only: class_irregular
    use resolved_scene, only: resolved_scene_t
    use row_motions, only: are_alike, handed_state, row_motions_t, solve_trials, trial_t
    use sampling, only: method_grid, sample_plan_t
    use scene_group, only: scene_group_t
-   use scene_orbit, only: nearby_orbit
+   use scene_orbit, only: orbit_ahead
    use scene_types, only: scene_t, spectrum_choice_t
    use settled_motion, only: near_states, settled_motion_t
    use signals, only: must_stop
@@ -26,8 +26,6 @@ module handed_motions
    integer, parameter :: start_seed = 1
    !> How often a motion that has not shown what it is, is followed on: the one from rest, and one from another start
    integer, parameter :: own_extensions = 2, other_extensions = 1
-   !> How far from its end a periodic motion may be that it settles on, relative to the film [-]
-   real(dp), parameter :: slow_nearness = 2.0_dp
 
    !> Motions that a scene was handed: numbers of the scenes that had them, and their places there; and those that did not settle
    type :: handed_t
@@ -179,8 +177,8 @@ contains
       type(trial_t), intent(inout) :: trial
       type(periodic_orbit_t) :: orbit
 
-      orbit = nearby_orbit(problem, motion_state_t(numbers=trial%state), slow_nearness)
-      if (attracting_period(orbit) == 0) return
+      orbit = orbit_ahead(problem, motion_state_t(numbers=trial%state))
+      if (orbit%period == 0) return
       ! Of other starts any stable motion is of use; of the motion from rest columns tell.
       if (trial%is_own .and. .not. are_near(problem, near_states(problem), orbit%state, trial%state)) return
       trial%state = orbit%state

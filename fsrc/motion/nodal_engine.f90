@@ -174,8 +174,10 @@ contains
       real(dp), intent(in) :: watched(:, :)
       type(checkpoint_t), intent(out) :: checkpoint
 
-      checkpoint = checkpoint_t(periods=period, numbers=motion%states(1, :), carried_on=.true., count=ending%count, &
-                                orbit=ending%orbit, nodal=pack_motion(problem, choice%nodes, motion))
+      checkpoint = checkpoint_t(periods=period, carried_on=.true., count=ending%count, orbit=ending%orbit, &
+                                nodal=pack_motion(problem, choice%nodes, motion))
+      ! Within the constructor gfortran 12 reads behind the end of that array.
+      checkpoint%numbers = motion%states(1, :)
       if (until_steady) checkpoint%watch = orbit_watch_t(count=min(period + 1, kept_periods), states=watched)
    end subroutine keep_state
 

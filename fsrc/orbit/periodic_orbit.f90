@@ -85,22 +85,26 @@ contains
 
    !> Look for a periodic motion near a state: the shortest period that is near enough is taken, a motion that attracts others before
    !> one that they leave. Where a motion has doubled its period, the one that it was is near by still.
-   function find_periodic_orbit(problem, state, nearness) result(orbit)
+   function find_periodic_orbit(problem, state, nearness, longest) result(orbit)
       !> What moves
       type(problem_t), intent(in) :: problem
       !> State at the start of a period of the force
       real(dp), intent(in) :: state(:)
       !> Distance at which a periodic motion is another one, relative to the film [-]
       real(dp), intent(in) :: nearness
+      !> Longest period that is looked for; absent: longest_period [periods of the force]
+      integer, intent(in), optional :: longest
       type(periodic_orbit_t) :: orbit
       type(periodic_orbit_t) :: other
       real(dp) :: images(size(state), 1), scale(size(state))
-      integer :: period
+      integer :: period, last
       logical :: mapped
 
       scale = counts_as(problem, state)
       images(:, 1) = state
-      do period = 1, longest_period
+      last = longest_period
+      if (present(longest)) last = longest
+      do period = 1, last
          call map_states(problem, 1, search_accuracy, images, mapped)
          if (.not. mapped) return
          if (maxval(abs(images(:, 1) - state)*scale) > nearness*thinnest_film(problem, state)) cycle

@@ -22,7 +22,7 @@ module follow_starts
    use problem, only: of_film, of_velocity, problem_t, state_size
    use rattle_class, only: class_irregular, class_irregular_so_far, note_orbit, rattle_verdict_t
    use resolved_scene, only: request_of
-   use scene_orbit, only: nearby_orbit
+   use scene_orbit, only: nearby_orbit, orbit_ahead
    use scene_status, only: is_success, status_complete
    use scene_types, only: scene_t
    use settled_motion, only: known_of, same_motion, settled_motion_t
@@ -296,6 +296,11 @@ contains
          end if
          if (allocated(irregular)) call join_irregular(judged, irregular, followers)
       end do
+      do i = 1, size(is_left)
+         if (followers%motion(i) > 0 .or. followers%failed(i)) cycle
+         call look_for_repetition(scene, judged, i, followers, settled, error, huge(1.0_dp))
+         if (allocated(error) .or. must_stop()) return
+      end do
       first = irregular_place(judged)
       if (first == 0 .or. none_is_irregular) return
       where (followers%motion == 0 .and. .not. followers%failed .and. followers%periods >= most) followers%motion = first
@@ -405,7 +410,11 @@ contains
          if (distance > limit) return
          followers%tried(place) = distance
          here%numbers = followers%states(place)%numbers
-         orbit = nearby_orbit(problem, here)
+         if (present(within)) then
+            orbit = orbit_ahead(problem, here)
+         else
+            orbit = nearby_orbit(problem, here)
+         end if
          if (attracting_period(orbit) == 0) return
          told%period = orbit%period
          told%state = orbit%state

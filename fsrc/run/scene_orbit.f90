@@ -3,7 +3,7 @@ module scene_orbit
    use engine, only: ending_t, motion_state_t
    use kinds, only: dp
    use known_motions, only: are_near
-   use periodic_orbit, only: find_periodic_orbit, map_states, periodic_orbit_t
+   use periodic_orbit, only: attracting_period, find_periodic_orbit, map_states, periodic_orbit_t
    use problem, only: problem_t
    use settled_motion, only: near_states
    use text_output, only: lock_texts, unlock_texts
@@ -12,29 +12,40 @@ module scene_orbit
 
    !> A periodic motion farther away than this is not that of the scene [-].
    real(dp), parameter, public :: orbit_nearness = 0.02_dp
+   !> Longest period of a motion that one which settles slowly is led to [periods of the force]
+   integer, parameter :: longest_ahead = 3
    !> Accuracy with which a periodic motion is followed through its periods [-]
    real(dp), parameter :: accuracy = 1.0e-10_dp
 
-   public :: nearby_orbit, orbit_of
+   public :: nearby_orbit, orbit_of, orbit_ahead
 
 contains
 
    !> The periodic motion at the end of a run, if there is one.
-   type(periodic_orbit_t) function nearby_orbit(problem, ending, within)
+   type(periodic_orbit_t) function nearby_orbit(problem, ending)
       !> What moves
       type(problem_t), intent(in) :: problem
       !> Where its motion ended
       class(motion_state_t), intent(in) :: ending
-      !> How far it may be, relative to the film; absent: orbit_nearness [-]
-      real(dp), intent(in), optional :: within
-      real(dp) :: nearness
 
-      nearness = orbit_nearness
-      if (present(within)) nearness = within
       call unlock_texts()
-      nearby_orbit = find_periodic_orbit(problem, ending%numbers, nearness)
+      nearby_orbit = find_periodic_orbit(problem, ending%numbers, orbit_nearness)
       call lock_texts()
    end function nearby_orbit
+
+   !> The stable periodic motion of a short period that Newton's method leads to from the end of a motion which settles slowly, or
+   !> none. How far that is away says nothing: next to an impact the film is a hundredth of what a state may be off.
+   type(periodic_orbit_t) function orbit_ahead(problem, ending) result(orbit)
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      !> Where its motion ended
+      class(motion_state_t), intent(in) :: ending
+
+      call unlock_texts()
+      orbit = find_periodic_orbit(problem, ending%numbers, huge(1.0_dp), longest_ahead)
+      call lock_texts()
+      if (attracting_period(orbit) == 0) orbit = periodic_orbit_t()
+   end function orbit_ahead
 
    !> The periodic motion that a scene ends on: that of its tighter solution, which is nearer to it, unless this has come to another
    !> motion of the scene.

@@ -19,10 +19,10 @@ module reference_motions
    real(dp), parameter :: longest = 0.4_dp
    integer, parameter :: most_steps = 100000
    !> Most periods of a start, and longest period of a motion that is looked for [periods of the force].
-   integer, parameter :: most_periods = 150, longest_period = 12
+   integer, parameter :: most_periods = 600, longest_period = 12
    !> Where so many starts do not repeat, the next ones are followed for `later_periods`; where no start repeats, no more than
    !> `most_unsettled` are followed.
-   integer, parameter :: enough_unsettled = 3, later_periods = 60, most_unsettled = 16
+   integer, parameter :: enough_unsettled = 3, later_periods = 300, most_unsettled = 16
    !> Distances at which a start has joined a known motion, at which its own periods repeat, and at which states are those of one
    !> motion, in units of gap and characteristic velocity [-].
    real(dp), parameter :: joined = 5.0e-3_dp, repeated = 2.0e-5_dp, alike = 1.0e-2_dp

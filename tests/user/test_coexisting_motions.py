@@ -217,6 +217,34 @@ def test_a_loud_motion_that_settles_slowly_is_told(run, repository: Path, tmp_pa
     assert told["loudest_acceleration_rms"] == pytest.approx(139.135, rel=1e-3)
 
 
+def test_a_motion_far_from_where_slow_starts_end_is_told(run, repository: Path, tmp_path: Path) -> None:
+    """Soft teeth: slow starts end hundreds of films away from the motion of 45.6 m/s2 that they come to."""
+    pairs = (repository / "input" / "gearbox_map.nml").read_text().split("&gear\n")
+    text = (
+        pairs[0] + "&gear\n" + pairs[2] + "&shaft\n" + pairs[-1].split("&shaft\n")[1].split("&campaign\n")[0]
+    )
+    (tmp_path / "gearbox_run_up.csv").write_bytes((repository / "input" / "gearbox_run_up.csv").read_bytes())
+    (tmp_path / "scene.nml").write_text(text.replace("'campaign'", "'motion'"))
+    keys = ("shaft.speed_rpm=747.6303148188935", "oil.temperature_celsius=92.6035145285589")
+    keys += ("gear.tooth_stiffness=1.05220197e7", "load.force_scale=0.79697788")
+    ended = run(*(word for key in keys for word in ("--set", key)), "scene.nml", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    told = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert told["motions"] == 2
+    keys += (
+        "film.initial_film=6e-5",
+        "film.initial_velocity=-0.15",
+        "solver.starts=1",
+        "solver.periods=1500",
+    )
+    words = [word for key in keys for word in ("--set", key)]
+    alone = run(*words, "--overwrite", "scene.nml", cwd=tmp_path)
+    assert alone.returncode == 0, alone.stderr
+    settled = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert settled["orbit_period"] == 1
+    assert told["loudest_acceleration_rms"] == pytest.approx(settled["acceleration_rms"], rel=1e-3)
+
+
 def test_a_start_that_flies_off_is_not_verified(run, scene_text, tmp_path: Path) -> None:
     """From 10 mm at 100 m/s the tooth is metres away: there its class says nothing, in a row neither."""
     start = {"law": "'iso-viscous'", "initial_film": "1e-2", "initial_velocity": "100.0"}
