@@ -9,7 +9,7 @@
 !> the tighter one is that of a window there.
 module group_verification
    use carried_loads, only: films_of
-   use doubt, only: doubt_samples, doubt_t, doubt_tighter_ending, first_doubt
+   use doubt, only: doubt_samples, doubt_t, doubt_second_ending, first_doubt
    use engine, only: motion_state_t, request_t, start_of
    use kinds, only: dp
    use motion_behind, only: follow_behind, other_accuracy
@@ -94,7 +94,7 @@ contains
       do k = 1, size(tested)
          i = tested(k)
          if (.not. is_success(tight%endings(k)%status)) then
-            verifications(i) = no_verification(doubt_t(doubt_tighter_ending, counts=[tight%endings(k)%status, 0]))
+            verifications(i) = no_verification(doubt_t(doubt_second_ending, counts=[tight%endings(k)%status, 0]))
             cycle
          end if
          if (must_stop()) return

@@ -4,7 +4,7 @@
 !> Two solutions of an irregular motion part whatever their digits, so that one of another accuracy is another sample of it: one that
 !> settles shows that the first one may. Nothing but the class of its windows is asked for, which integrals over their steps tell.
 module motion_behind
-   use doubt, only: doubt_class, doubt_class_behind, doubt_none, doubt_t, doubt_tighter_ending
+   use doubt, only: doubt_class, doubt_class_behind, doubt_none, doubt_t, doubt_second_ending
    use engine, only: ending_t, motion_state_t, request_t
    use errors, only: error_t
    use finer_windows, only: classify_finer, integral_record
@@ -81,7 +81,7 @@ contains
             if (is_success(endings(k)%status)) then
                states(k) = endings(k)%motion_state_t
             else
-               doubts(k) = doubt_t(doubt_tighter_ending, counts=[endings(k)%status, 0])
+               doubts(k) = doubt_t(doubt_second_ending, counts=[endings(k)%status, 0])
             end if
          end do
          left = pack(left, doubts%code == doubt_none)

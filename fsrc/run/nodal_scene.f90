@@ -3,7 +3,7 @@
 module nodal_scene
    use controlled_engine, only: solve_window
    use constants, only: pi
-   use doubt, only: doubt_t, doubt_tighter_ending
+   use doubt, only: doubt_t, doubt_second_ending
    use engine, only: checkpoint_t, ending_t, motion_watcher_t, request_t, sample_sink_t, start_of, unwatched_t
    use errors, only: error_t
    use fine_window, only: window_t

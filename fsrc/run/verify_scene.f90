@@ -2,7 +2,7 @@
 !> Floquet multipliers.
 module verify_scene
    use carried_loads, only: films_of
-   use doubt, only: doubt_t, doubt_tighter_ending, is_doubted
+   use doubt, only: doubt_t, doubt_second_ending, is_doubted
    use engine, only: ending_t, request_t
    use errors, only: error_t
    use fine_window, only: window_t
@@ -122,7 +122,7 @@ contains
       call solve_finer(scene, resolved%problem, choice, request_of(scene), periods, finer, ending)
       call lock_texts()
       if (.not. is_success(ending%status)) then
-         verification = no_verification(doubt_t(doubt_tighter_ending, counts=[ending%status, 0]))
+         verification = no_verification(doubt_t(doubt_second_ending, counts=[ending%status, 0]))
          return
       end if
       call classify_window(scene%spectrum, resolved%problem, finer%periods, finer%accelerations, finer%record, &

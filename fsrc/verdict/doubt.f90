@@ -11,7 +11,7 @@ module doubt
    !> Codes, and what their numbers and counts are.
    integer, parameter, public :: doubt_none = 0
    !> The second solution failed: its status
-   integer, parameter, public :: doubt_tighter_ending = 1
+   integer, parameter, public :: doubt_second_ending = 1
    !> Another class: that of the second solution
    integer, parameter, public :: doubt_class = 2
    !> Irregular only so far: the parting of neighbouring motions
@@ -76,7 +76,7 @@ contains
       sentence = ''
       associate (numbers => doubt%numbers, counts => doubt%counts)
          select case (doubt%code)
-         case (doubt_tighter_ending)
+         case (doubt_second_ending)
             sentence = 'The second solution ended as '//status_name(counts(1))//'.'
          case (doubt_class)
             sentence = 'Solved again, the class is '//spaced(quantity_word(quantity_rattle_class, counts(1)))//'.'

@@ -2,7 +2,7 @@
 module test_verification
   use verification, only: verification_t, compare_windows, doubt_of_closing, doubt_of_return, no_verification, verification_sentence
    use checks, only: check_list_t
-   use doubt, only: doubt_impacts, doubt_sentence, doubt_t, doubt_tighter_ending, is_doubted
+   use doubt, only: doubt_impacts, doubt_sentence, doubt_t, doubt_second_ending, is_doubted
    use engine, only: motion_state_t
    use kinds, only: dp
    use node_extremes, only: seen_acceleration, seen_films
@@ -452,7 +452,7 @@ call checks%check(index(verification_sentence(verification), words) > 0, words//
 
       type(verification_t) :: verification
 
-      verification = no_verification(doubt_t(doubt_tighter_ending, counts=[status_time_limit, 0]))
+      verification = no_verification(doubt_t(doubt_second_ending, counts=[status_time_limit, 0]))
       call checks%check(verification%exists .and. .not. verification%verified, 'none: not verified')
       call checks%check(verification_sentence(verification) == 'The second solution ended as time_limit.' .and. &
                         size(verification%harmonic_errors) == 0, 'none: its reason')
