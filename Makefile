@@ -201,7 +201,9 @@ run: $(BUILD)/rattle $(BUILD)/kernels/built
 # --- tests: the unit tests, then what a user does ----------------------------------------------------
 
 # What takes long, a build in another place, a browser, faults and samples of the studies, is left to test-long.
-test: unit user
+test:
+	@$(MAKE) --no-print-directory -j2 $(BUILD)/rattle $(BUILD)/unit_tests $(BUILD)/kernels/built
+	@$(MAKE) --no-print-directory unit user
 test-long: unit-debug user-long touched stress-sample faults-sample
 
 unit: $(BUILD)/unit_tests
