@@ -18,6 +18,7 @@ module scene_report
                          quantity_iterations_per_step, quantity_model_limit, quantity_orbit_stability, quantity_rattle_class, &
                          quantity_t, quantity_table, quantity_verdict, quantity_verdict_verified, quantity_word
    use film_pressure, only: exact_pressure
+   use rattle_class, only: class_irregular, class_irregular_so_far
    use regime, only: contact_deflection, deflection_limit, film_elastohydrodynamic, film_iso_viscous, film_regime, &
                      hertzian_pressure, rigid_limit, steel_tooth
    use regime_check, only: check_regime, closure_range_sentence, fitting_law, model_limit, model_limit_sentence, outside_closure, &
@@ -25,7 +26,7 @@ module scene_report
    use resolved_scene, only: resolve, resolved_scene_t
    use scene_status, only: is_success, status_name, status_sentence
    use scene_types, only: drag_computed, method_newmark, model_published, scene_t, speed_mean, task_film
-   use text, only: error_text, integer_text, short_text, spaced
+   use text, only: counted, error_text, integer_text, short_text, spaced
    use version, only: program_version
    implicit none(type, external)
    private
@@ -352,6 +353,9 @@ contains
                           short_text(rattle%reversals_per_period, 3)//' reversals a period: '// &
                           spaced(quantity_word(quantity_rattle_class, rattle%class))// &
                           verified_in_brackets())
+            if (rattle%class == class_irregular .or. rattle%class == class_irregular_so_far) &
+               call log%line('  The motion does not repeat within its window of '//counted(scene%spectrum%periods, 'period')// &
+                             ': other windows have other numbers; more of spectrum.periods steadies them.')
          else
             call log%line('  no motion but rounding: '//spaced(quantity_word(quantity_rattle_class, rattle%class)))
          end if

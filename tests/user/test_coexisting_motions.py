@@ -230,7 +230,9 @@ def test_a_motion_far_from_where_slow_starts_end_is_told(run, repository: Path, 
     ended = run(*(word for key in keys for word in ("--set", key)), "scene.nml", cwd=tmp_path)
     assert ended.returncode == 0, ended.stderr
     told = summary_of(tmp_path / "results" / "scene.summary.nml")
-    assert told["motions"] == 2
+    assert (told["motions"], told["rattle_class"]) == (2, "irregular_so_far")
+    of_window = "The motion does not repeat within its window of 4 periods: other windows have other numbers"
+    assert of_window in ended.stdout
     keys += (
         "film.initial_film=6e-5",
         "film.initial_velocity=-0.15",
@@ -241,7 +243,7 @@ def test_a_motion_far_from_where_slow_starts_end_is_told(run, repository: Path, 
     alone = run(*words, "--overwrite", "scene.nml", cwd=tmp_path)
     assert alone.returncode == 0, alone.stderr
     settled = summary_of(tmp_path / "results" / "scene.summary.nml")
-    assert settled["orbit_period"] == 1
+    assert settled["orbit_period"] == 1 and of_window not in alone.stdout
     assert told["loudest_acceleration_rms"] == pytest.approx(settled["acceleration_rms"], rel=1e-3)
 
 
