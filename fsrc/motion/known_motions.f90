@@ -23,7 +23,7 @@ module known_motions
       real(dp) :: near_velocity = 0.0_dp
    end type known_motions_t
 
-   public :: reached_motion, joined_irregular, are_near
+   public :: reached_motion, joined_irregular, are_near, distance_of
 
 contains
 
@@ -84,5 +84,21 @@ contains
       near(of_velocity) = known%near_velocity
       are_near = all(abs(one(:size(near)) - other(:size(near))) <= near)
    end function are_near
+
+   !> Distance of two states by how gear and teeth stand and move, in units of what counts as near [-].
+   pure real(dp) function distance_of(problem, known, one, other) result(distance)
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      !> What counts as near
+      type(known_motions_t), intent(in) :: known
+      !> Numbers of the states
+      real(dp), intent(in) :: one(:)
+      real(dp), intent(in) :: other(:)
+      real(dp) :: near(moving_numbers(problem))
+
+      near = known%near_film
+      near(of_velocity) = known%near_velocity
+      distance = maxval(abs(one(:size(near)) - other(:size(near)))/near)
+   end function distance_of
 
 end module known_motions

@@ -1,10 +1,12 @@
 !> The periodic motion that a scene ends on.
 module scene_orbit
-   use engine, only: ending_t, motion_state_t
+   use engine, only: ending_t, motion_state_t, request_t
    use kinds, only: dp
-   use known_motions, only: are_near
+   use known_motions, only: are_near, distance_of
+   use many_motions, only: solve_motions
    use periodic_orbit, only: attracting_period, find_periodic_orbit, map_states, periodic_orbit_t
    use problem, only: problem_t
+   use scene_status, only: status_complete
    use settled_motion, only: near_states
    use text_output, only: lock_texts, unlock_texts
    implicit none(type, external)
@@ -12,8 +14,13 @@ module scene_orbit
 
    !> A periodic motion farther away than this is not that of the scene [-].
    real(dp), parameter, public :: orbit_nearness = 0.02_dp
-   !> Longest period of a motion that one which settles slowly is led to [periods of the force]
+   !> How far from the end of a motion that settles slowly the one may be that it comes to, relative to the film [-], and the longest
+   !> period of one that is farther away [periods of the force]
+   real(dp), parameter :: ahead_nearness = 2.0_dp
    integer, parameter :: longest_ahead = 3
+   !> It is followed on with this accuracy, for so many parts of so many periods, and its distance falls at least to this share [-].
+   real(dp), parameter :: ahead_accuracy = 1.0e-6_dp, least_fall = 0.7_dp
+   integer, parameter :: parts = 6, part_periods = 10
    !> Accuracy with which a periodic motion is followed through its periods [-]
    real(dp), parameter :: accuracy = 1.0e-10_dp
 
@@ -33,8 +40,8 @@ contains
       call lock_texts()
    end function nearby_orbit
 
-   !> The stable periodic motion of a short period that Newton's method leads to from the end of a motion which settles slowly, or
-   !> none. How far that is away says nothing: next to an impact the film is a hundredth of what a state may be off.
+   !> The stable periodic motion that one which settles slowly comes to, or none: Newton's method leads there from its end, however
+   !> far that is, since next to an impact the film is a hundredth of what a state may be off; and followed on it nears that motion.
    type(periodic_orbit_t) function orbit_ahead(problem, ending) result(orbit)
       !> What moves
       type(problem_t), intent(in) :: problem
@@ -42,10 +49,46 @@ contains
       class(motion_state_t), intent(in) :: ending
 
       call unlock_texts()
-      orbit = find_periodic_orbit(problem, ending%numbers, huge(1.0_dp), longest_ahead)
+      orbit = find_periodic_orbit(problem, ending%numbers, ahead_nearness)
+      if (attracting_period(orbit) == 0) orbit = find_periodic_orbit(problem, ending%numbers, huge(1.0_dp), longest_ahead)
+      if (attracting_period(orbit) > 0) then
+         if (.not. comes_to(problem, ending, orbit)) orbit = periodic_orbit_t()
+      else
+         orbit = periodic_orbit_t()
+      end if
       call lock_texts()
-      if (attracting_period(orbit) == 0) orbit = periodic_orbit_t()
    end function orbit_ahead
+
+   !> Whether a motion, followed on, nears a periodic one all the time: the largest distances of its successive parts fall.
+   logical function comes_to(problem, from, orbit)
+      type(problem_t), intent(in) :: problem
+      class(motion_state_t), intent(in) :: from
+      !> A stable one
+      type(periodic_orbit_t), intent(in) :: orbit
+      type(ending_t) :: endings(1)
+      real(dp) :: states(parts*part_periods, size(from%numbers), 1), on_orbit(size(from%numbers), 1), &
+                  distances(parts*part_periods), farthest(parts)
+      integer :: period, i
+      logical :: mapped
+
+      comes_to = .false.
+      call solve_motions([problem], [motion_state_t(numbers=from%numbers)], &
+                         request_t(accuracy=ahead_accuracy, periods=size(states, 1), samples_per_period=1, &
+                                   sampled_periods=size(states, 1)), states, endings)
+      if (endings(1)%status /= status_complete) return
+      distances = huge(1.0_dp)
+      on_orbit(:, 1) = orbit%state
+      do period = 1, orbit%period
+         do i = 1, size(distances)
+            distances(i) = min(distances(i), distance_of(problem, near_states(problem), states(i, :, 1), on_orbit(:, 1)))
+         end do
+         call map_states(problem, 1, ahead_accuracy, on_orbit, mapped)
+         if (.not. mapped) return
+      end do
+      farthest = maxval(reshape(distances, [part_periods, parts]), dim=1)
+      comes_to = all(farthest(2:) <= max(1.0_dp, farthest(:parts - 1))) .and. &
+                 farthest(parts) <= max(1.0_dp, least_fall*farthest(1))
+   end function comes_to
 
    !> The periodic motion that a scene ends on: that of its tighter solution, which is nearer to it, unless this has come to another
    !> motion of the scene.
