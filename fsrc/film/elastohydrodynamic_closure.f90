@@ -5,8 +5,8 @@
 !>     h = R eps^2 H ,   W = E* R eps^2 l M ,   h' = eps u/2 H' ,   p = E* eps P ,   alpha p = L P ,   L = alpha E* eps ,
 !>
 !>     M = (12/H) g_r Phi(A g_s/g_r) ,   A = sqrt(2) H'/sqrt(H) ,
-!>     g_r = (1 + 0.830 s) (eta(0.278 q)/eta0)^0.864 ,   g_s = (1 + 0.765 s)^(3/2) eta(0.213 q)/eta0 ,
-!>     s = M/H ,   q = M/b ,   b^2 = 2 H + 8 M/pi .
+!>     g_r = (1 + 0.830 s) exp(0.864 x/(1 + 0.058 (x^2 + s^2)^2)^(1/4)) ,   x = ln(eta(0.278 q)/eta0) ,
+!>     g_s = (1 + 0.765 s)^(3/2) eta(0.213 q)/eta0 ,   s = M/H ,   q = M/b ,   b^2 = 2 H + 8 M/pi .
 !>
 !> H is the minimum film thickness, Phi that of the Reynolds iso-viscous film. The flanks are compressed by M c in all, of which c
 !> is a number of the flank but for the width of the contact, - (2/pi) ln(0.516 H + 0.245 M). The constants are fitted to films
@@ -49,6 +49,8 @@ module elastohydrodynamic_closure
    real(dp), parameter :: rolling_bend = 0.830_dp, rolling_pressure = 0.278_dp, rolling_exponent = 0.864_dp, &
                           squeeze_bend = 0.765_dp, squeeze_pressure = 0.213_dp, squeeze_exponent = 1.5_dp, &
                           film_width = 0.516_dp, load_width = 0.245_dp
+   !> Factor of (x^2 + s^2)^2 in g_r: heavy loads drag in no more oil, as its pressure rises within the contact and not before it
+   real(dp), parameter :: rolling_limit = 0.058_dp
    !> Largest P of the film over q [-]
    real(dp), parameter :: peak_pressure = 0.64_dp
 
@@ -64,7 +66,7 @@ module elastohydrodynamic_closure
    real(dp), parameter :: beyond_all = 1.0e60_dp
 
    public :: closure_of, closure_velocity, closure_velocities, closure_load, closure_steady_film, closure_width, closure_film, &
-             closure_films, closure_pressure, is_fitted, knows_rest, error_of_loads, thicken
+             closure_films, closure_pressure, is_fitted, error_of_loads, thicken
 
 contains
 
@@ -274,25 +276,6 @@ contains
       film = exp(place)
    end function closure_steady_film
 
-   !> Whether the film at rest falls by a power of the load as that of oil does: it does not where both M and L are large, within
-   !> what the closure was fitted to in motion. d ln H/d ln M = (d ln g_r/d ln M - 1)/(1 - d ln g_r/d ln H).
-   elemental logical function knows_rest(closure, load)
-      type(closure_t), intent(in) :: closure
-      !> W [N]
-      real(dp), intent(in) :: load
-      !> Steady films of line contacts fall by a power of the load of 0.1 or more [-]
-      real(dp), parameter :: least_power = 0.05_dp
-      real(dp), dimension(most_films, 2) :: factor, by_film, by_load
-      real(dp) :: m, film
-
-      m = load/closure%load_unit
-      knows_rest = .true.
-      if (.not. m > 0.0_dp) return
-      film = closure_steady_film(closure, m)
-      call factors_of(closure, 1, [film], [m], factor, by_film, by_load)
-      knows_rest = 1.0_dp - m*by_load(1, 1) >= least_power*(1.0_dp - film*by_film(1, 1))
-   end function knows_rest
-
    !> Compression of the flanks by the width of the contact, - (2/pi) M ln(0.516 H + 0.245 M), and its slopes. A load below
    !> zero, which interpolation may ask of, has the width of none.
    elemental subroutine closure_width(closure, film, load, gives, by_film, by_load)
@@ -434,9 +417,9 @@ contains
       real(dp), intent(out) :: by_load(most_films, 2)
       real(dp), parameter :: bend(2) = [rolling_bend, squeeze_bend], pressure(2) = [rolling_pressure, squeeze_pressure]
       real(dp), parameter :: of_bend(2) = [1.0_dp, squeeze_exponent], of_oil(2) = [rolling_exponent, 1.0_dp]
-      real(dp), dimension(most_films) :: at, thicker, slope, bent
+      real(dp), dimension(most_films) :: at, thicker, slope, bent, limited_by_s
       real(dp), dimension(most_films) :: q, q_by_film, q_by_load
-      real(dp) :: inverse_square, inverse, change
+      real(dp) :: inverse_square, inverse, change, limited, s, squares, share
       integer :: flow, i
 
       !$omp simd private(inverse_square, inverse)
@@ -452,9 +435,23 @@ contains
          bent(:n) = 1.0_dp + bend(flow)*(load/film)
          call thicken_many(closure, n, at, thicker, slope)
          call logarithms(n, bent, factor(:, flow))
+         limited_by_s = 0.0_dp
+         if (flow == 1 .and. closure%viscosity_law /= viscosity_constant) then
+            !$omp simd private(s, squares, limited, share)
+            do i = 1, n
+               s = load(i)/film(i)
+               squares = min(thicker(i)**2 + s**2, beyond_all)
+               limited = 1.0_dp + rolling_limit*squares**2
+               share = 1.0_dp/sqrt(sqrt(limited))
+               limited = rolling_limit*squares/limited
+               slope(i) = share*(1.0_dp - limited*thicker(i)**2)*slope(i)
+               thicker(i) = share*thicker(i)
+               limited_by_s(i) = -rolling_exponent*limited*s*thicker(i)
+            end do
+         end if
          !$omp simd private(change)
          do i = 1, n
-            change = of_bend(flow)*bend(flow)/(film(i)*bent(i))
+            change = (of_bend(flow)*bend(flow)/bent(i) + limited_by_s(i))/film(i)
             factor(i, flow) = of_bend(flow)*factor(i, flow) + of_oil(flow)*thicker(i)
             slope(i) = of_oil(flow)*pressure(flow)*slope(i)
             by_film(i, flow) = slope(i)*q_by_film(i) - change*(load(i)/film(i))
@@ -526,7 +523,7 @@ contains
       !> M [-]
       real(dp), intent(in) :: load
       !> Below and above this load, in oil of constant viscosity and in oil that pressure thickens
-      real(dp), parameter :: light = 0.15_dp, of_light(2) = [0.0032_dp, 0.0049_dp], of_others(2) = [0.0093_dp, 0.024_dp]
+      real(dp), parameter :: light = 0.15_dp, of_light(2) = [0.0031_dp, 0.0049_dp], of_others(2) = [0.0087_dp, 0.011_dp]
       integer :: oil
 
       oil = merge(1, 2, closure%viscosity_law == viscosity_constant)

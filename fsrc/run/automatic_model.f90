@@ -9,7 +9,7 @@ module automatic_model
    use judged_scene, only: judged_scene_t, largest_load
    use kinds, only: dp
    use node_extremes, only: seen_loads, seen_net_load_of
-   use problem, only: contact_count, largest_applied_force, static_load
+   use problem, only: contact_count, largest_applied_force
    use regime_check, only: closure_range, closure_range_sentence, outside_closure
    use resolved_scene, only: resolve
    use sample_recorder, only: sample_recorder_t
@@ -109,8 +109,7 @@ contains
       if (.not. is_success(judged%status)) return
       reason%code = because_out_of_range
       associate (film => judged%resolved%problem%contact%film, problem => judged%resolved%problem, extremes => judged%extremes)
-         if (closure_range(film, static_load(problem), largest_load(judged), judged%regime%pressure_maximum) == outside_closure) &
-            return
+         if (closure_range(film, largest_load(judged), judged%regime%pressure_maximum) == outside_closure) return
          reason%code = 0
          if (.not. judged%impacts%exists) return
          reason%error = error_of_loads(film%closure, largest_load(judged)/film%closure%load_unit)
@@ -143,8 +142,7 @@ contains
       case (because_closure_ended)
          words = 'the closure ended with '//status_name(judged%status)
       case (because_out_of_range)
-         words = closure_range_sentence(judged%resolved%problem%contact%film, static_load(judged%resolved%problem), &
-                                        largest_load(judged), judged%regime%pressure_maximum)
+         words = closure_range_sentence(judged%resolved%problem%contact%film, largest_load(judged), judged%regime%pressure_maximum)
       case (because_of_impact)
          words = 'the largest load on a flank, '//short_text(reason%load, 5)//' N, is within the error of the closure, '// &
                  percent(reason%error)//', of the '//short_text(reason%limit, 5)//' N that make an impact'

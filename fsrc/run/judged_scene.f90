@@ -40,7 +40,7 @@ module judged_scene
       told_impact_impulse_mean, told_impact_times, told_impact_loads, told_impact_velocities
    use carried_loads, only: contact_film
    use flank_contact, only: of_central_film, of_film_at_pressure, of_pressure
-   use problem, only: contact_count, has_own_position, inner_places, static_load
+   use problem, only: contact_count, has_own_position, inner_places
    use rattle_class, only: rattle_verdict_t
    use regime, only: deflection_limit, film_elastohydrodynamic
    use regime_check, only: closure_range, model_limit, regime_verdict_t
@@ -277,8 +277,7 @@ contains
             if (problem%contact%film%in_nodes) value = film_model_nodes
          case (quantity_closure_range)
             if (problem%contact%film%bends .and. .not. problem%contact%film%in_nodes) &
-               value = real(closure_range(problem%contact%film, static_load(problem), largest_load(judged), &
-                                         regime%pressure_maximum), dp)
+               value = real(closure_range(problem%contact%film, largest_load(judged), regime%pressure_maximum), dp)
          case (quantity_verdict_verified)
             if (verification%exists .and. judged%impacts%exists) value = flag(verification%impacts%verdict)
          case (quantity_impacts_verified)

@@ -13,7 +13,7 @@ module scene_report
    use node_extremes, only: seen_acceleration, seen_films
    use nodal_orbit, only: orbit_sentence
    use output_place, only: has_motions_table, motions_path, profiles_path, result_path, summary_path
-   use problem, only: reference_film, static_load
+   use problem, only: reference_film
    use quantities, only: a_code, a_flag, part_cost, part_scene, part_window, quantity_closure_range, quantity_deflection_share, &
                          quantity_iterations_per_step, quantity_model_limit, quantity_orbit_stability, quantity_rattle_class, &
                          quantity_t, quantity_table, quantity_verdict, quantity_verdict_verified, quantity_word
@@ -22,7 +22,7 @@ module scene_report
    use regime, only: contact_deflection, deflection_limit, film_elastohydrodynamic, film_iso_viscous, film_regime, &
                      hertzian_pressure, rigid_limit, steel_tooth
    use regime_check, only: check_regime, closure_range_sentence, fitting_law, model_limit, model_limit_sentence, outside_closure, &
-                           regime_sentence, regime_verdict_t, rest_sentence, within_model
+                           regime_sentence, regime_verdict_t, within_model
    use resolved_scene, only: resolve, resolved_scene_t
    use scene_status, only: is_success, status_name, status_sentence
    use scene_types, only: drag_computed, method_newmark, model_published, scene_t, speed_mean, task_film
@@ -66,17 +66,11 @@ contains
       !> What follows from it
       type(judged_scene_t), intent(in) :: judged
 
-      character(:), allocatable :: words
-
       call report_head(log, scene, law_sentence(scene))
       if (judged%resolved%steady_film > 0.0_dp) then
          call report_part(log, judged, part_scene)
          if (.not. judged%resolved%natural_frequency > 0.0_dp) &
             call log%line('  no natural frequency: small motions about the steady film are overdamped')
-         associate (problem => judged%resolved%problem)
-            words = rest_sentence(problem%contact%film, static_load(problem))
-         end associate
-         if (len(words) > 0) call log%line('  warning: '//words)
       else
          call log%line('  no rigid piezo-viscous film carries the static load')
       end if
@@ -187,8 +181,6 @@ contains
                  '! damping ratio                        '//short_text(resolved%damping_ratio, 5)//end_of_line
          if (.not. resolved%natural_frequency > 0.0_dp) lines = lines// &
                  '! no natural frequency: small motions about the steady film are overdamped'//end_of_line
-         warning = rest_sentence(resolved%problem%contact%film, static_load(resolved%problem))
-         if (len(warning) > 0) lines = lines//'! warning: '//warning//end_of_line
          lines = lines// &
                  '! pressure group B at the steady film  '//short_text(resolved%pressure_group, 5)//end_of_line// &
                  '! largest alpha p at the steady film   '//short_text(resolved%alpha_p, 5)//end_of_line// &
@@ -375,12 +367,9 @@ contains
                        fitting_law(judged%regime%regime))
       ! Of films that do not bend it is not a number.
       if (judged%resolved%problem%contact%film%bends .and. .not. judged%resolved%problem%contact%film%in_nodes) then
-         ! What the rest says was told before.
-         if (nint(quantity_value(quantity_closure_range, judged)) == outside_closure .and. &
-             len(rest_sentence(judged%resolved%problem%contact%film, static_load(judged%resolved%problem))) == 0) &
-            call log%line('  warning: '//closure_range_sentence(judged%resolved%problem%contact%film, &
-                                                                static_load(judged%resolved%problem), &
-                                                                largest_load(judged), judged%regime%pressure_maximum))
+         if (nint(quantity_value(quantity_closure_range, judged)) == outside_closure) &
+            call log%line('  warning: '//closure_range_sentence(judged%resolved%problem%contact%film, largest_load(judged), &
+                                                                judged%regime%pressure_maximum))
       end if
       warning = stiffness_warning(scene, 'under its largest load', quantity_value(quantity_deflection_share, judged))
       if (len(warning) > 0) call log%line('  '//warning)

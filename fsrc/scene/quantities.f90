@@ -407,8 +407,7 @@ module quantities
       quantity_t(quantity_law_contradicted, 'law_contradicted', '-', a_flag, part_regime, needs_regime, 'summary campaign', &
          'Whether the film law of the scene is not the one of its regime.'), &
       quantity_t(quantity_closure_range, 'closure_range', '-', a_code, part_regime, needs_closure_range, 'summary campaign', &
-         'Whether loads, oil and pressures of an elastohydrodynamic film stay within those that its closure was fitted to, and '// &
-         'whether it knows the film at rest.', &
+         'Whether loads, oil and pressures of an elastohydrodynamic film stay within those that its closure was fitted to.', &
          'within|outside'), &
       quantity_t(quantity_film_model, 'film_model', '-', a_code, part_regime, needs_nothing, 'summary campaign', &
          'Which model of the elastohydrodynamic film tells of the motion; recorded of every row of film.model = automatic.', &

@@ -2,7 +2,7 @@
 !> and where a motion leaves what the model can mean: a gap so wide that it is no line contact any more, or so narrow that no oil is
 !> in it.
 module regime_check
-   use elastohydrodynamic_closure, only: is_fitted, largest_alpha_p, largest_load, largest_material, knows_rest
+   use elastohydrodynamic_closure, only: is_fitted, largest_alpha_p, largest_load, largest_material
    use film_law, only: film_t
    use film_pressure, only: barus_pressure, exact_pressure
    use kinds, only: dp
@@ -43,8 +43,8 @@ module regime_check
    !> Codes of closure_range.
    integer, parameter, public :: within_closure = 0, outside_closure = 1
 
-   public :: check_regime, steady_alpha_p, regime_sentence, fitting_law, closure_range, closure_range_sentence, &
-             rest_sentence, model_limit, model_limit_sentence
+   public :: check_regime, steady_alpha_p, regime_sentence, fitting_law, closure_range, closure_range_sentence, model_limit, &
+             model_limit_sentence
 
 contains
 
@@ -125,33 +125,26 @@ contains
       end select
    end function fitting_law
 
-   !> Whether a closure was fitted to the loads and pressures of a motion, and knows the film at its static load.
-   elemental integer function closure_range(film, static_load, load, pressure)
+   !> Whether a closure was fitted to the loads and pressures of a motion.
+   elemental integer function closure_range(film, load, pressure)
       !> Elastohydrodynamic
       type(film_t), intent(in) :: film
-      !> Of either sign [N]
-      real(dp), intent(in) :: static_load
       !> Largest load [N] and pressure [Pa]
       real(dp), intent(in) :: load
       real(dp), intent(in) :: pressure
 
-      closure_range = merge(within_closure, outside_closure, is_fitted(film%closure, load, pressure) .and. &
-                            knows_rest(film%closure, abs(static_load)))
+      closure_range = merge(within_closure, outside_closure, is_fitted(film%closure, load, pressure))
    end function closure_range
 
    !> Sentence for the log where it was not.
-   pure function closure_range_sentence(film, static_load, load, pressure) result(sentence)
+   pure function closure_range_sentence(film, load, pressure) result(sentence)
       !> Elastohydrodynamic
       type(film_t), intent(in) :: film
-      !> Of either sign [N]
-      real(dp), intent(in) :: static_load
       !> Largest load [N] and pressure [Pa]
       real(dp), intent(in) :: load
       real(dp), intent(in) :: pressure
       character(:), allocatable :: sentence
 
-      sentence = rest_sentence(film, static_load)
-      if (len(sentence) > 0) return
       associate (closure => film%closure)
          sentence = 'the elastohydrodynamic film is extrapolated: its closure is fitted to films up to M = '// &
                     short_text(largest_load, 2)//', L = '//short_text(largest_material, 2)//', alpha p = '// &
@@ -160,22 +153,6 @@ contains
                     short_text(closure%material*pressure/closure%pressure_unit, 3)//' (closure_range)'
       end associate
    end function closure_range_sentence
-
-   !> Sentence where a closure does not know the film at its static load; empty: it does, or the film has no closure.
-   pure function rest_sentence(film, static_load) result(sentence)
-      type(film_t), intent(in) :: film
-      !> Of either sign [N]
-      real(dp), intent(in) :: static_load
-      character(:), allocatable :: sentence
-
-      sentence = ''
-      if (.not. film%bends .or. film%in_nodes) return
-      if (.not. knows_rest(film%closure, abs(static_load))) &
-         sentence = 'the film at rest of the closure no longer falls with the load at M = '// &
-                    short_text(abs(static_load)/film%closure%load_unit, 3)//' of the static load and L = '// &
-                    short_text(film%closure%material, 3)//', as that of oil does: no motion about this rest can be believed; '// &
-                    'film.model = resolved solves it (closure_range)'
-   end function rest_sentence
 
    !> Which limits a motion has passed.
    elemental integer function model_limit(film_minimum, film_maximum, radius)

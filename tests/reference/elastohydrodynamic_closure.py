@@ -58,6 +58,8 @@ def _inverse_of_load(points: int = 60_000) -> CubicSpline:
 
 INVERSE = _inverse_of_load()
 STILL = 0.203957020579723718
+# Factor of (x^2 + s^2)^2 in g_r, which studies vary.
+ROLLING_LIMIT = 0.058
 
 
 @dataclass
@@ -101,7 +103,8 @@ class Gear:
 
     def factors(self, h: float, m: float) -> tuple[float, float]:
         s, q = m / h, m / math.sqrt(2 * h + 8 * m / math.pi)
-        rolling = (1 + 0.830 * s) * math.exp(0.864 * self.thickening(0.278 * q))
+        x = self.thickening(0.278 * q)
+        rolling = (1 + 0.830 * s) * math.exp(0.864 * x / (1 + ROLLING_LIMIT * (x**2 + s**2) ** 2) ** 0.25)
         return rolling, (1 + 0.765 * s) ** 1.5 * math.exp(self.thickening(0.213 * q))
 
     def velocity(self, h: float, m: float) -> float:

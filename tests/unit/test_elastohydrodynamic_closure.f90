@@ -36,6 +36,7 @@ contains
       call checks%start('elastohydrodynamic_closure')
       call test_steady_table(checks)
       call test_literature(checks)
+      call test_rest_falls(checks)
       call test_rigid_limit(checks)
       call test_there_and_back(checks)
       call test_slopes(checks)
@@ -65,7 +66,7 @@ contains
       real(dp), parameter :: table(4, 10) = reshape([ &
          0.1_dp, 0.0_dp, 24.5476_dp, 0.000_dp, 0.4_dp, 0.0_dp, 6.4012_dp, 0.005_dp, 1.0_dp, 0.0_dp, 3.0631_dp, 0.013_dp, &
          2.0_dp, 0.0_dp, 2.1416_dp, 0.010_dp, 5.0_dp, 0.0_dp, 1.5906_dp, 0.06_dp, 0.4_dp, 5.0_dp, 7.0698_dp, 0.02_dp, &
-         1.0_dp, 5.0_dp, 4.1289_dp, 0.02_dp, 5.0_dp, 5.0_dp, 3.1755_dp, 0.21_dp, 1.0_dp, 10.0_dp, 5.3467_dp, 0.02_dp, &
+         1.0_dp, 5.0_dp, 4.1289_dp, 0.02_dp, 5.0_dp, 5.0_dp, 3.1755_dp, 0.047_dp, 1.0_dp, 10.0_dp, 5.3467_dp, 0.02_dp, &
          0.4_dp, 20.0_dp, 9.2532_dp, 0.05_dp], [4, 10])
       real(dp) :: film, rounding
       character(40) :: name
@@ -93,11 +94,42 @@ contains
       call checks%check_close(film*3.7906_dp/3.0631_dp/moes(1.0_dp, 0.0_dp), 1.0_dp, 0.063_dp, 'Moes, M 1, L 0')
       film = closure_steady_film(unit_closure(viscosity_barus, 10.0_dp), 1.0_dp)
       call checks%check_close(film*6.6880_dp/5.3467_dp/moes(1.0_dp, 10.0_dp), 1.0_dp, 0.07_dp, 'Moes, M 1, L 10')
-      ! M 5, L 5: the closure is 21 % above the solution in nodes, which is within 0.6 % of Dowson and Higginson.
+      ! M 5, L 5: the closure is 5 % above the solution in nodes, which is within 0.6 % of Dowson and Higginson.
       film = closure_steady_film(unit_closure(viscosity_barus, 5.0_dp), 5.0_dp)
-      call checks%check_close(film/(1.631_dp*5.0_dp**0.54_dp*5.0_dp**(-0.13_dp)), 1.21_dp, 0.015_dp, &
+      call checks%check_close(film/(1.631_dp*5.0_dp**0.54_dp*5.0_dp**(-0.13_dp)), 1.05_dp, 0.01_dp, &
                               'Dowson and Higginson, M 5, L 5')
    end subroutine test_literature
+
+   !> The film at rest falls with the load wherever the closure is fitted. Without the limit of g_r it would rise with it by a power
+   !> of 0.4.
+   subroutine test_rest_falls(checks)
+      type(check_list_t), intent(inout) :: checks
+      !> Viscosities and coefficients of oils that pressure thickens [Pa s], [1/Pa]
+      real(dp), parameter :: oils(2, 3) = reshape([0.005_dp, 1.2e-8_dp, 0.1_dp, 2.0e-8_dp, 2.0_dp, 2.5e-8_dp], [2, 3])
+      !> Of each law: what the closure has, rounded down; films in nodes fall by powers of 0.3, 0.01 and 0.03 at least
+      real(dp), parameter :: least_powers(viscosity_constant:viscosity_roelands) = [0.39_dp, 0.0005_dp, 0.034_dp]
+      real(dp), parameter :: step = 1.0e-3_dp
+      type(closure_t) :: closure
+      real(dp) :: m, power, least, speed
+      integer :: law, oil, material, i
+
+      do law = viscosity_constant, viscosity_roelands
+         least = huge(1.0_dp)
+         do oil = 1, size(oils, 2)
+            do material = 1, 20
+               speed = (real(material, dp)/(oils(2, oil)*226.0e9_dp))**4*226.0e9_dp*0.01_dp/oils(1, oil)
+               closure = closure_of(radius=0.01_dp, length=0.02_dp, modulus=226.0e9_dp, speed=speed, viscosity=oils(1, oil), &
+                                    pressure_viscosity=oils(2, oil), viscosity_law=law)
+               do i = 1, 60
+                  m = 0.05_dp*40.0_dp**(real(i, dp)/60.0_dp)
+                  power = -log(closure_steady_film(closure, m*exp(step))/closure_steady_film(closure, m*exp(-step)))/(2.0_dp*step)
+                  least = min(least, power)
+               end do
+            end do
+         end do
+         call checks%check(least >= least_powers(law), 'the film at rest falls with the load: '//trim(law_names(law)))
+      end do
+   end subroutine test_rest_falls
 
    !> Moes' regression of the film at the largest pressure.
    pure real(dp) function moes(m, l)
@@ -316,8 +348,9 @@ contains
                               /film%closure%pressure_unit/0.225499_dp, 1.0_dp, 0.045_dp, 'largest pressure')
    end subroutine test_units
 
-   !> Twelfth period of scene G: the closure's own numbers to their last digit, which an independent program told; so the closure
-   !> is as far from the films in nodes as it is said to be.
+   !> Twelfth period of scene G: the closure's own numbers to their last digit, which an independent program told, but for three of
+   !> Roelands' that the limit of g_r has moved by less than half a percent; so the closure is as far from the films in nodes as
+   !> it is said to be.
    subroutine test_scene_g(checks)
       type(check_list_t), intent(inout) :: checks
       !> z'' max and min [m/s2], films [m], loads [N], in nodes and by the closure: iso-viscous, Roelands
@@ -325,7 +358,7 @@ contains
                                                        514.03_dp, -255.15_dp, 0.2385e-6_dp, 0.2926e-6_dp, 330.41_dp, 163.30_dp], &
                                                       [6, 2])
       real(dp), parameter :: by_closure(5, 2) = reshape([507.1_dp, -250.4_dp, 0.1325e-6_dp, 0.2201e-6_dp, 326.1_dp, &
-                                                         514.0_dp, -254.6_dp, 0.2351e-6_dp, 0.2993e-6_dp, 330.4_dp], [5, 2])
+                                                         513.84_dp, -254.6_dp, 0.2342e-6_dp, 0.2993e-6_dp, 330.3_dp], [5, 2])
       !> The Roelands films of that program are 0.07 % thicker.
       real(dp), parameter :: last_digit(5, 2) = reshape([0.1_dp, 0.1_dp, 1.0e-10_dp, 1.0e-10_dp, 0.1_dp, &
                                                          0.1_dp, 0.1_dp, 2.5e-10_dp, 2.5e-10_dp, 0.1_dp], [5, 2])

@@ -148,7 +148,7 @@ contains
             found = [gap/table(3, i), smallest_film(grid, gap, pressures)/table(4, i), peak/table(5, i), &
                      film_at_place(films_along(grid, gap, pressures), place)/table(6, i)]
             tolerance = merge([0.007_dp, 0.007_dp, 0.018_dp, 0.025_dp], [0.0005_dp, 0.001_dp, 0.001_dp, 0.001_dp], j == 1)
-            if (table(1, i) > 4.0_dp) tolerance = merge([0.008_dp, 0.025_dp, 0.045_dp, 0.01_dp], &
+            if (table(1, i) > 4.0_dp) tolerance = merge([0.008_dp, 0.03_dp, 0.045_dp, 0.01_dp], &
                                                         [0.001_dp, 0.001_dp, 0.008_dp, 0.003_dp], j == 1)
             do k = 1, 4
                call checks%check_close(found(k), 1.0_dp, tolerance(k), trim(name)//': '//trim(names(k)))
