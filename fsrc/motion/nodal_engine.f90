@@ -13,11 +13,12 @@ module nodal_engine
                           rigid_gap, share_that_leaves_a_film, step_weights_t, stiffen
    use nodal_profiles, only: nodal_profiles_t, note_profiles, start_profiles
    use nodal_state, only: pack_motion, unpack_motion
-   use nodal_step, only: begin_period, distance_of_states, fastest_of, first_step, gear_t, most_steps, motion_t, &
+   use nodal_step, only: begin_period, distance_of_states, fastest_of, first_step, gear_t, is_late, most_steps, motion_t, &
                          nodal_choice_t, set_up, state_of, take_step
    use problem, only: of_drive_compression, of_film, of_velocity, problem_t, state_size, static_load
    use repetition, only: kept_states, longest_orbit, orbit_watch_t
-   use scene_status, only: status_complete, status_film_cycles, status_film_torn, status_interrupted, status_steady
+   use scene_status, only: status_complete, status_film_cycles, status_film_torn, status_interrupted, status_steady, &
+                           status_time_limit
    use signals, only: must_stop
    use step_nodes, only: add_piece, node_place, nodes_per_piece, step_nodes_t
    use window_record, only: record_period, start_record, window_record_t
@@ -151,6 +152,7 @@ contains
          call watcher%period_done(period, last)
          if (period == last) exit
          ending%status = status_of_stop(request, started)
+         if (ending%status == status_complete .and. is_late(choice)) ending%status = status_time_limit
          if (ending%status /= status_complete) return
       end do
       if (ending%orbit > 0) ending%status = status_steady

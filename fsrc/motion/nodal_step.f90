@@ -7,6 +7,7 @@
 !> A step of a rigid film that ends beyond the bound is thrown away and done again in nodes. Steps end where periods do.
 module nodal_step
    use carried_loads, only: films_of
+   use clock, only: wall_seconds
    use constants, only: two_pi
    use engine, only: ending_t
    use force, only: force_at
@@ -31,6 +32,8 @@ module nodal_step
       real(dp) :: bound = 1.0e-2_dp
       !> S of the grid [-]
       real(dp) :: scale = 3.0_dp
+      !> When no more period is begun, of the motion and of what is learned of it, on the clock of wall_seconds [s]
+      real(dp) :: ends_at = huge(1.0_dp)
    end type nodal_choice_t
 
    !> Largest load below which errors of loads count as errors of it: that of the forces, if these are less [-]; share of the
@@ -86,9 +89,16 @@ module nodal_step
    !> Steps of a period after which a motion is given up; it takes 400 to 800, and 2000 at the finest accuracy
    integer(int64), parameter, public :: most_steps = 50000_int64
 
-   public :: set_up, state_of, take_step, begin_period, distance_of_states, fastest_of
+   public :: is_late, set_up, state_of, take_step, begin_period, distance_of_states, fastest_of
 
 contains
+
+   !> Whether the time that a motion may take is over.
+   logical function is_late(choice)
+      type(nodal_choice_t), intent(in) :: choice
+
+      is_late = wall_seconds() > choice%ends_at
+   end function is_late
 
    !> Units, coefficients and grid.
    pure subroutine set_up(problem, choice, contact, gear)

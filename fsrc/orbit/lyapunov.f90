@@ -41,6 +41,8 @@ module lyapunov
       real(dp) :: standard_error = 0.0_dp
       !> Whether they part for good: the exponent is positive beyond its error, over all periods asked for
       logical :: for_good = .false.
+      !> Whether the time of the scene was over before all of these periods
+      logical :: out_of_time = .false.
    end type parting_t
 
    !> Where a motion was.

@@ -16,7 +16,7 @@ module nodal_orbit
    use nodal_flank, only: nodal_contact_t
    use nodal_film, only: smallest_film
    use nodal_state, only: unpack_motion
-   use nodal_step, only: begin_period, distance_of_states, fastest_of, gear_t, most_steps, motion_t, nodal_choice_t, &
+   use nodal_step, only: begin_period, distance_of_states, fastest_of, gear_t, is_late, most_steps, motion_t, nodal_choice_t, &
                          set_up, state_of, take_step
    use nodal_tangent, only: combine, displace, neighbours, nodal_tangent_t, start_tangent
    use periodic_orbit, only: longest_period, periodic_orbit_t
@@ -37,7 +37,7 @@ module nodal_orbit
 
    !> What is known of a periodic motion next to another motion: nothing was asked for, it was found, or why it was not.
    integer, parameter, public :: orbit_unasked = 0, orbit_found = 1, orbit_none_near = 2, orbit_not_followed = 3, &
-                                 orbit_not_settled = 4
+                                 orbit_not_settled = 4, orbit_out_of_time = 5
 
    public :: find_nodal_orbit, follow_nodal_neighbours, orbit_sentence
 
@@ -70,6 +70,8 @@ contains
       outcome = orbit_none_near
       motion = start
       do period = 1, longest_period
+         if (is_late(choice)) outcome = orbit_out_of_time
+         if (outcome == orbit_out_of_time .or. must_stop()) return
          call follow_period(problem, contact, gear, tight, motion, ending)
          if (ending%status /= status_complete) then
             outcome = orbit_not_followed
@@ -77,7 +79,7 @@ contains
          end if
          if (distance_of_states(problem, fastest_of(gear, start), motion%states(1, :), start%states(1, :)) > nearness) cycle
          call newton(problem, contact, gear, tight, period, start, nearness, orbit, outcome)
-         if (outcome == orbit_found .or. must_stop()) return
+         if (outcome == orbit_found) return
       end do
    end subroutine find_nodal_orbit
 
@@ -92,6 +94,8 @@ contains
          sentence = 'no Floquet multipliers: no periodic motion is found near the end of the run'
       case (orbit_not_followed)
          sentence = 'no Floquet multipliers: neighbours of the motion cannot be followed for a period'
+      case (orbit_out_of_time)
+         sentence = 'no Floquet multipliers: solver.time_limit was over before a periodic motion was found'
       case (orbit_not_settled)
          sentence = 'no Floquet multipliers: those of successive periods differ by more than 1 %'
       case default
@@ -128,7 +132,10 @@ contains
          before = state_of_neighbours(gear, tangent)
          first = [motion%position(1), motion%velocity(1)]
          do i = 1, period
+            outcome = orbit_out_of_time
+            if (is_late(choice)) return
             outcome = orbit_not_followed
+            if (must_stop()) return
             call follow_period(problem, contact, gear, choice, motion, ending, tangent)
             if (ending%status /= status_complete .or. .not. tangent%exists) return
          end do
@@ -279,7 +286,8 @@ contains
       call unpack_motion(problem, choice%nodes, numbers, motion)
       call start_tangent(contact, motion%flanks(:gear%flanks), motion%time*gear%period, tangent)
       do period = -turning_periods + 1, followed_periods
-         if (must_stop()) return
+         parting%out_of_time = is_late(choice)
+         if (parting%out_of_time .or. must_stop()) return
          call follow_period(problem, contact, gear, choice, motion, ending, tangent)
          if (ending%status /= status_complete .or. .not. tangent%exists) return
          state = state_of_neighbours(gear, tangent)

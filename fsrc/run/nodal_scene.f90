@@ -1,6 +1,7 @@
 !> A scene whose films are solved in nodes of pressure: how it is followed, and its verification by twice as many nodes and a
 !> tighter tolerance.
 module nodal_scene
+   use clock, only: wall_seconds
    use controlled_engine, only: solve_window
    use constants, only: pi
    use doubt, only: doubt_t, doubt_second_ending
@@ -11,10 +12,10 @@ module nodal_scene
    use kinds, only: dp, int64
    use nodal_engine, only: solve_in_nodes
    use nodal_profiles, only: nodal_profiles_t
-   use nodal_step, only: nodal_choice_t
+   use nodal_step, only: is_late, nodal_choice_t
    use node_extremes, only: seen_films, seen_loads, seen_net_load
    use problem, only: largest_applied_force, problem_t, state_size
-   use scene_status, only: is_success
+   use scene_status, only: is_success, status_time_limit
    use scene_types, only: scene_t
    use window_record, only: window_record_t
    implicit none(type, external)
@@ -62,6 +63,7 @@ contains
       real(dp) :: film, load
       integer :: periods
 
+      if (scene%solver%time_limit > 0.0_dp) choice%ends_at = wall_seconds() + scene%solver%time_limit
       choice%nodes = scene%film%nodes
       choice%tolerance = tolerance_share*scene%solver%accuracy
       choice%bound = min(largest_bound, bound_factor*scene%solver%accuracy)
@@ -118,7 +120,7 @@ contains
       if (present(checkpoint)) checkpoint = state
    end subroutine solve_nodal_scene
 
-   !> The window of a scene, solved finer.
+   !> The window of a scene, solved finer, unless the time of the scene is over.
    subroutine solve_finer(scene, problem, choice, request, periods, window, ending, goes_on)
       !> Checked scene
       type(scene_t), intent(in) :: scene
@@ -143,6 +145,8 @@ contains
       type(unwatched_t) :: nobody
       type(error_t), allocatable :: error
 
+      ending%status = status_time_limit
+      if (is_late(choice)) return
       finer = choice
       finer%nodes = more_nodes*choice%nodes
       finer%tolerance = tighter*choice%tolerance

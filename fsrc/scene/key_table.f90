@@ -408,7 +408,8 @@ module key_table
             'Starts that the motions of a scene are looked for from; absent: 29 of a motion, 3 of a campaign or threshold. 1: '// &
                'its own start alone.'), &
       key_t('solver', 'time_limit', real_kind, 's', '', positive, '', 'scene.task=motion', &
-            'Wall time after which the run ends cleanly, to be resumed; absent: none.'), &
+            'Wall time after which the run ends cleanly, to be resumed; of films in nodes, what is learned of the motion too; '// &
+               'absent: none.'), &
       key_t('solver', 'samples_per_period', integer_kind, '-', '512', at_least_8, '', &
             'solver.method=taylor', &
             'Samples of a period that are kept; the steps are chosen by the accuracy.', &

@@ -135,7 +135,10 @@ contains
       type(parting_t), intent(in) :: parting
       character(:), allocatable :: sentence
 
-      if (parting%periods == 0) then
+      if (parting%out_of_time) then
+         sentence = 'The motion does not repeat, and solver.time_limit was over before it had been followed beside a '// &
+                    'neighbouring one.'
+      else if (parting%periods == 0) then
          sentence = 'The motion does not repeat, and it could not be followed beside a neighbouring one.'
       else if (draws_near(parting)) then
          sentence = parting_sentence(parting)//' The motion settles; more of solver.periods would tell to what.'

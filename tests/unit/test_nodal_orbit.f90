@@ -3,19 +3,24 @@
 module test_nodal_orbit
    use canonical_scenes, only: canonical_scene, counting_watcher_t, scene_g
    use checks, only: check_list_t
+   use clock, only: wall_seconds
+   use doubt, only: doubt_parting, doubt_sentence, doubt_t
    use engine, only: ending_t
    use errors, only: error_t
+   use fine_window, only: window_t
    use kinds, only: dp
+   use lyapunov, only: parting_t
    use nodal_flank, only: nodal_contact_t
-   use nodal_orbit, only: find_nodal_orbit, orbit_found, orbit_none_near
-   use nodal_scene, only: choice_of, solve_nodal_scene, window_keeper_t
+   use nodal_orbit, only: find_nodal_orbit, follow_nodal_neighbours, orbit_found, orbit_none_near, orbit_out_of_time, &
+                          orbit_sentence
+   use nodal_scene, only: choice_of, solve_finer, solve_nodal_scene, window_keeper_t
    use nodal_state, only: unpack_motion
    use nodal_step, only: gear_t, motion_t, nodal_choice_t, set_up, take_step
    use nodal_tangent, only: displace, nodal_tangent_t, start_tangent
    use periodic_orbit, only: periodic_orbit_t
    use problem, only: problem_of, problem_t, state_size
    use resolved_scene, only: request_of
-   use scene_status, only: status_complete
+   use scene_status, only: status_complete, status_time_limit
    use scene_types, only: law_elastohydrodynamic, model_resolved, scene_t, until_periods, viscosity_constant, viscosity_roelands
    use window_record, only: window_record_t
    implicit none(type, external)
@@ -33,6 +38,7 @@ contains
       call test_neighbours(checks)
       call test_periodic_motion(checks)
       call test_none_near(checks)
+      call test_out_of_time(checks)
    end subroutine run_nodal_orbit_tests
 
    !> Solve some periods of a scene in nodes.
@@ -173,5 +179,37 @@ contains
       call find_nodal_orbit(problem, choice, ending%nodal, 1.0e-7_dp, orbit, outcome)
       call checks%check(outcome == orbit_none_near .and. orbit%period == 0, 'none is nearer than steps are exact')
    end subroutine test_none_near
+
+   !> Once the time of a scene is over, no period is begun any more to learn of its motion, and it is said so.
+   subroutine test_out_of_time(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(scene_t) :: scene
+      type(problem_t) :: problem
+      type(nodal_choice_t) :: choice
+      type(ending_t) :: ending, again
+      type(periodic_orbit_t) :: orbit
+      type(parting_t) :: parting
+      type(window_t) :: window
+      integer :: outcome
+
+      scene = gear_scene(viscosity_constant, 1)
+      call solve(scene, problem, choice, ending)
+      call checks%check(.not. choice%ends_at < huge(1.0_dp), 'without a limit there is no end')
+      scene%solver%time_limit = 1.0e6_dp
+      call solve(scene, problem, choice, ending)
+      call checks%check(abs(choice%ends_at - wall_seconds() - 1.0e6_dp) < 1.0e5_dp, 'the end is the limit from now')
+      choice%ends_at = wall_seconds() - 1.0_dp
+      call find_nodal_orbit(problem, choice, ending%nodal, 1.0e-2_dp, orbit, outcome)
+      call checks%check(outcome == orbit_out_of_time .and. orbit%period == 0, 'no periodic motion is looked for')
+      call checks%check(index(orbit_sentence(outcome), 'solver.time_limit was over') > 0, 'and it is said why')
+      call follow_nodal_neighbours(problem, choice, ending%nodal, parting)
+      call checks%check(parting%out_of_time .and. parting%periods == 0 .and. .not. parting%for_good, 'no neighbour is followed')
+      call checks%check(index(doubt_sentence(doubt_t(doubt_parting, parting=parting)), 'solver.time_limit was over') > 0, &
+                        'and it is said of an irregular motion')
+      window%periods = 1
+      window%samples_per_period = 16
+      call solve_finer(scene, problem, choice, request_of(scene), 1, window, again)
+      call checks%check(again%status == status_time_limit .and. again%periods == 0, 'nor is it solved again')
+   end subroutine test_out_of_time
 
 end module test_nodal_orbit

@@ -208,6 +208,18 @@ def test_a_motion_of_three_periods_and_an_irregular_one() -> None:
     assert told["orbit_text"].startswith("no Floquet multipliers: ") and "floquet_multipliers" not in told
 
 
+def test_what_no_time_is_left_for_is_said() -> None:
+    """A run whose time is over with its last period is judged, but neither verified nor followed."""
+    one = {"solver.until": "periods", "solver.periods": 1, "spectrum.periods": 1, "solver.time_limit": 1e-9}
+    told = package.run(FAST, set=one).summary
+    assert told["status"] == "complete" and np.isfinite(told["acceleration_rms"])
+    assert told["verification"] != "verified"
+    assert told["verification_text"] == "The second solution ended as time_limit."
+    assert "solver.time_limit was over" in told["orbit_text"]
+    told = package.run(FAST, set=one | {"solver.time_limit": 600.0}).summary
+    assert "time_limit" not in told["verification_text"] + told.get("orbit_text", "")
+
+
 THICK = """&contact radius = 0.0136, length = 0.0098, stiffness = 1.37e8 /
 &lubricant viscosity = 0.32, pressure_viscosity = 1.93e-8, viscosity_law = 'roelands' /
 &kinematics rolling_speed = 3.46 /
@@ -277,8 +289,9 @@ def test_a_motion_of_three_periods_settles_by_its_multiplier(model: str) -> None
     solved = package.run(FAST, set=settings | followed | shown).result
     steps = np.diff(solved["gear_position"][::192])
     seen = np.median(steps[6:] / steps[5:-1])
-    # 17 cycles of three periods; the accuracy of nodes is 1e-3, and what a film is off by grows with impacts.
-    assert told[0].imag == 0.0 and seen == pytest.approx(told[0].real, rel=0.04)
+    # 17 cycles of three periods; the accuracy of nodes is 1e-3, and what a film is off by grows with impacts:
+    # multipliers are told by ten times finer steps, -0.7205, and deviations decay by -0.7505 in 32 nodes.
+    assert told[0].imag == 0.0 and seen == pytest.approx(told[0].real, rel=0.05)
     assert (-0.8 < seen < -0.68) == (model == "resolved")
 
 
