@@ -42,6 +42,7 @@ KNOW_FLANKS = {
         "motion/collocation_newton",
         "motion/elastic_equations",
         "motion/elastic_step",
+        "motion/elastic_tangents",
         "motion/elastic_trial",
         "motion/inner_equations",
     ),

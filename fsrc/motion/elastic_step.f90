@@ -20,6 +20,7 @@ module elastic_step
    use collocation_basis, only: can_extrapolate, carry_on, choose_steps, error_of_acceleration, forces_of_stages, growth_of, &
       highest_terms, last_share, pass_share, rounding, series_of_motion
    use elastic_equations, only: imbalances, newton_matrix, slopes_t
+   use elastic_tangents, only: carry_tangents, lane_tangents_t
    use elastic_trial, only: follow_loads, sign_of, trial_t
    use film_state, only: load_t
    use flank_contact, only: carries_positive_loads, film_over_gap, flank_contact_t, load_of_contact, width_compression
@@ -59,7 +60,7 @@ module elastic_step
 contains
 
    !> Try one step in every lane that has a scene.
-   pure subroutine take_elastic_step(contacts, occupied, block, inner)
+   pure subroutine take_elastic_step(contacts, occupied, block, inner, tangents)
       !> Contacts of the lanes
       type(flank_contact_t), intent(in) :: contacts(lanes)
       !> Lanes with a scene
@@ -68,6 +69,8 @@ contains
       type(lane_block_t), intent(inout) :: block
       !> and the same of the states of the films
       type(lane_inner_t), intent(inout) :: inner(lanes)
+      !> Displacements that go along
+      type(lane_tangents_t), intent(inout) :: tangents(lanes)
       real(dp) :: force(lanes, stages), lane_force(rows)
       type(trial_t) :: trial
       type(trial_inner_t) :: states
@@ -88,6 +91,8 @@ contains
          lane_force(rows) = force(l, stages)
          call solve(contacts(l), l, lane_force, block, inner(l), trial, states)
          call judge(contacts(l)%film%bends, l, trial, block, inner(l), states)
+         if (block%trust(l) > 0.0_dp .and. allocated(tangents(l)%now)) &
+            call carry_tangents(contacts(l), l, trial, block, tangents(l))
       end do
    end subroutine take_elastic_step
 

@@ -10,6 +10,7 @@
 module lane_integration
    use collocation_step, only: take_collocation_step
    use elastic_step, only: advance_contacts, take_elastic_step
+   use elastic_tangents, only: place_tangents, tangents_in_units
    use engine, only: ending_t, motion_count_t, motion_state_t, request_t
    use film_series, only: series_of, set_coefficients
    use kinds, only: dp, int64
@@ -39,7 +40,8 @@ module lane_integration
 contains
 
    !> Solve scenes, by Taylor series (all of one film law that has one) or by collocation.
-   subroutine integrate_lanes(by_series, problems, starts, queue, request, states, endings, watches, records, known)
+   subroutine integrate_lanes(by_series, problems, starts, queue, request, states, endings, watches, records, known, &
+                              displacements)
       !> Taylor series, else collocation
       logical, intent(in) :: by_series
       !> What moves, and where each motion starts
@@ -60,6 +62,9 @@ contains
       type(window_record_t), optional, intent(inout) :: records(:)
       !> Periodic motions that are known, scene by scene
       type(known_motions_t), optional, intent(in) :: known(:)
+      !> Small displacements of the starts of motions that have tangents, then of their ends: number of the state, displacement,
+      !> scene
+      real(dp), optional, intent(inout) :: displacements(:, :, :)
       type(lane_run_t) :: run
       real(dp), allocatable, target :: room(:)
       integer :: l, events
@@ -72,14 +77,14 @@ contains
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
       run%samples%per_period = request%samples_per_period
       do l = 1, lanes
-         call next_scene(l, problems, starts, queue, request, run, endings, watches, records)
+         call next_scene(l, problems, starts, queue, request, run, endings, watches, records, displacements)
       end do
       do while (run%active > 0)
          if (must_stop()) exit
          if (by_series) then
             call take_series_step(run%series, run%block)
          else if (run%own_numbers) then
-            call take_elastic_step(run%contacts, run%watches%scene > 0, run%block, run%inner)
+            call take_elastic_step(run%contacts, run%watches%scene > 0, run%block, run%inner, run%tangents)
          else
             call take_collocation_step(run%contacts, run%watches%scene > 0, run%block)
          end if
@@ -105,15 +110,17 @@ contains
                call give_up(l, run)
             end if
             if (run%watches(l)%period < run%watches(l)%last_period) cycle
+            if (present(displacements)) displacements(:size(run%watches(l)%state), :, run%watches(l)%scene) = &
+               tangents_in_units(run%tangents(l), l, run%block)
             call finish(l, problems, run, endings, watches)
-            call next_scene(l, problems, starts, queue, request, run, endings, watches, records)
+            call next_scene(l, problems, starts, queue, request, run, endings, watches, records, displacements)
          end do
       end do
       if (run%active > 0) call interrupt(problems, starts, queue, run, endings, watches)
    end subroutine integrate_lanes
 
    !> Put the next scene that can start into a lane.
-   pure subroutine next_scene(lane, problems, starts, queue, request, run, endings, watches, records)
+   pure subroutine next_scene(lane, problems, starts, queue, request, run, endings, watches, records, displacements)
       !> Lane
       integer, intent(in) :: lane
       type(problem_t), intent(in) :: problems(:)
@@ -124,6 +131,8 @@ contains
       type(ending_t), intent(inout) :: endings(:)
       type(orbit_watch_t), optional, intent(in) :: watches(:)
       type(window_record_t), optional, intent(inout) :: records(:)
+      !> As of integrate_lanes
+      real(dp), optional, intent(in) :: displacements(:, :, :)
       integer :: scene, status
 
       run%watches(lane) = lane_watch_t()
@@ -137,6 +146,8 @@ contains
          call place_inner(problems(scene), starts(scene), run%inner(lane))
          if (run%by_series) call set_coefficients(problems(scene), starts(scene)%carried_on, lane, run%block)
          run%contacts(lane) = problems(scene)%contact
+         if (present(displacements)) call place_tangents(displacements(:state_size(problems(scene)), :, scene), lane, run%block, &
+                                                         run%tangents(lane))
          associate (watch => run%watches(lane))
             watch%scene = scene
             watch%ending%count = endings(scene)%count

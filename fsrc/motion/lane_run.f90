@@ -1,5 +1,6 @@
 !> A block of lanes at work: what has become of the scene of every lane, and what is taken of it on the way.
 module lane_run
+   use elastic_tangents, only: lane_tangents_t
    use engine, only: ending_t
    use flank_contact, only: flank_contact_t
    use film_series, only: film_series_t
@@ -61,6 +62,8 @@ module lane_run
       type(lane_block_t), pointer :: block => null()
       !> States of films, beside the block
       type(lane_inner_t) :: inner(lanes)
+      !> Displacements that are carried along
+      type(lane_tangents_t) :: tangents(lanes)
       type(lane_samples_t) :: samples
       type(lane_watch_t) :: watches(lanes)
       !> Nodes of the steps of the present period, where windows are recorded

@@ -12,19 +12,20 @@ module many_motions
    use lane_block, only: lane_accuracy
    use lane_integration, only: integrate_lanes
    use carried_loads, only: net_load
-   use problem, only: has_elastic_teeth, has_inner_numbers, of_film, of_velocity, problem_t, same_kind, static_load, thinner_film
+   use problem, only: has_elastic_teeth, has_inner_numbers, moving_numbers, of_film, of_velocity, problem_t, same_kind, &
+      state_size, static_load, thinner_film
    use repetition, only: orbit_watch_t
    use scene_status, only: status_film_lost, status_not_converged
    use window_record, only: window_record_t
    implicit none(type, external)
    private
 
-   public :: solve_motions
+   public :: solve_motions, has_tangents
 
 contains
 
    !> Solve all problems. Their order decides only which share a block: those of like cost should be neighbours, the longest first.
-   subroutine solve_motions(problems, starts, request, states, endings, watches, records, known)
+   subroutine solve_motions(problems, starts, request, states, endings, watches, records, known, displacements)
       !> What moves
       type(problem_t), intent(in) :: problems(:)
       !> Where each motion starts
@@ -41,6 +42,10 @@ contains
       type(window_record_t), optional, intent(inout) :: records(:)
       !> Periodic motions that are known, problem by problem: a run until steady that comes to one of them ends there
       type(known_motions_t), optional, intent(in) :: known(:)
+      !> Small displacements of the starts, where all motions have tangents, and on return of their ends: number of the state,
+      !> displacement, problem; each in its unit times any number
+      real(dp), optional, intent(inout) :: displacements(:, :, :)
+      type(request_t) :: asked
       type(motion_state_t), allocatable :: rest(:)
       logical, allocatable :: explicit(:), left(:), alike(:)
       integer, allocatable :: number(:)
@@ -48,13 +53,15 @@ contains
 
       allocate (explicit(size(problems)), left(size(problems)), alike(size(problems)), number(size(problems)))
       number(:) = [(i, i=1, size(problems))]
-      explicit(:) = has_series(problems, lane_accuracy(problems, request%accuracy)) .and. .not. starts%implicit &
-                    .and. .not. outgrows_series(problems, starts)
+      asked = request
+      ! A period that is skipped, since the motion returns to the last bit, would move no displacement.
+      if (present(displacements)) asked%every_period = .true.
+      explicit(:) = goes_by_series(problems, starts, request%accuracy)
       left(:) = explicit
       do while (any(left))
          first = findloc(left, .true., dim=1)
          alike(:) = same_kind(problems, problems(first))
-         call integrate_lanes(.true., problems, starts, pack(number, left .and. alike), request, states, endings, watches, &
+         call integrate_lanes(.true., problems, starts, pack(number, left .and. alike), asked, states, endings, watches, &
                               records, known)
          left(:) = left .and. .not. alike
       end do
@@ -71,9 +78,35 @@ contains
       do i = 0, 1
          alike(:) = left .and. (has_inner_numbers(problems) .eqv. i == 1)
          if (any(alike)) &
-            call integrate_lanes(.false., problems, rest, pack(number, alike), request, states, endings, watches, records, known)
+            call integrate_lanes(.false., problems, rest, pack(number, alike), asked, states, endings, watches, records, known, &
+                                 displacements)
       end do
    end subroutine solve_motions
+
+   !> Whether a motion from some start is followed with its displacements: by implicit steps alone, on springs, with films that have
+   !> no state of their own.
+   elemental logical function has_tangents(problem, start, accuracy)
+      type(problem_t), intent(in) :: problem
+      !> Where it starts
+      type(motion_state_t), intent(in) :: start
+      !> Relative accuracy of the film [-]
+      real(dp), intent(in) :: accuracy
+
+      has_tangents = has_elastic_teeth(problem) .and. state_size(problem) == moving_numbers(problem) .and. &
+                     .not. goes_by_series(problem, start, accuracy)
+   end function has_tangents
+
+   !> Whether a motion from some start is followed by a series, as far as this leads.
+   elemental logical function goes_by_series(problem, start, accuracy)
+      type(problem_t), intent(in) :: problem
+      !> Where it starts
+      type(motion_state_t), intent(in) :: start
+      !> Relative accuracy of the film [-]
+      real(dp), intent(in) :: accuracy
+
+      goes_by_series = has_series(problem, lane_accuracy(problem, accuracy)) .and. .not. start%implicit .and. &
+                       .not. outgrows_series(problem, start)
+   end function goes_by_series
 
    !> Whether the coefficients of a series about the start of a motion, in powers of time in periods, would overflow.
    elemental logical function outgrows_series(problem, start)

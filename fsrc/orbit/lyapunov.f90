@@ -1,6 +1,7 @@
 !> Whether neighbouring motions part from each other for good: the largest Lyapunov exponent, from motions and a neighbour of each
-!> that are solved side by side. After every period of the force the neighbour is brought back to a small distance along the
-!> direction in which it left; the exponent is the mean logarithm by which the distance grew (Benettin and others 1980).
+!> that are solved side by side, or from a displacement that implicit steps carry along. After every period of the force the
+!> neighbour is brought back to a small distance along the direction in which it left; the exponent is the mean logarithm by which
+!> the distance grew (Benettin and others 1980).
 !>
 !> A motion that repeats, or one that settles to it, has an exponent of 0 or less; that of a motion which never repeats though its
 !> force does is 0 where two frequencies without a common measure make it, and positive where it is irregular for good.
@@ -8,8 +9,8 @@ module lyapunov
    use carried_loads, only: counts_as, sizes_of_state
    use engine, only: ending_t, motion_state_t, request_t
    use kinds, only: dp
-   use many_motions, only: solve_motions
-   use problem, only: of_film, of_velocity, problem_t
+   use many_motions, only: has_tangents, solve_motions
+   use problem, only: of_film, of_velocity, problem_t, state_size
    use scene_status, only: status_complete
    use signals, only: must_stop
    implicit none(type, external)
@@ -64,33 +65,32 @@ contains
       type(parting_t), intent(out) :: partings(:)
       !> Where the motions that part for good went
       type(path_t), intent(out), optional :: paths(:)
-      type(request_t) :: one_period
-      type(motion_state_t) :: pairs(2, size(problems))
-      type(ending_t) :: endings(2*size(problems))
-      real(dp) :: growths(-turning_periods + 1:followed_periods, size(problems)), none(0, 2, 2*size(problems))
+      type(motion_state_t) :: here(size(problems))
+      real(dp) :: growths(-turning_periods + 1:followed_periods, size(problems))
       real(dp) :: passed(of_velocity, -turning_periods + 1:followed_periods, size(problems))
+      real(dp) :: displacements(maxval(state_size(problems)), 1, size(problems))
       logical :: apart(size(problems))
       integer, allocatable :: left(:)
-      integer :: period, i, n
+      integer :: period, i
 
-      one_period = request_t(accuracy=map_accuracy, periods=1)
+      displacements = 0.0_dp
       do i = 1, size(problems)
-         pairs(1, i) = motion_state_t(numbers=states(i)%numbers)
-         pairs(2, i) = displaced(problems(i), states(i)%numbers, spread(1.0_dp, 1, size(states(i)%numbers)))
+         associate (numbers => states(i)%numbers)
+            here(i) = motion_state_t(numbers=numbers)
+            displacements(:size(numbers), 1, i) = distance*sizes_of(problems(i), numbers)
+         end associate
       end do
       left = [(i, i=1, size(problems))]
       do period = -turning_periods + 1, followed_periods
-         n = size(left)
-         if (n == 0 .or. must_stop()) return
-         call solve_motions([(problems(left(i)), problems(left(i)), i=1, n)], [(pairs(:, left(i)), i=1, n)], one_period, &
-                            none(:, :, :2*n), endings(:2*n))
+         if (size(left) == 0 .or. must_stop()) return
          apart = .false.
-         do i = 1, n
-            associate (place => left(i), motion => endings(2*i - 1), neighbour => endings(2*i))
-               if (motion%status /= status_complete .or. neighbour%status /= status_complete) cycle
-               call part(problems(place), motion%numbers, neighbour%numbers, pairs(:, place), growths(period, place))
-               passed(:, period, place) = motion%numbers([of_film, of_velocity])
-               apart(place) = .true.
+         call pass_period(problems, left, here, displacements, apart)
+         left = pack(left, apart(left))
+         do i = 1, size(left)
+            associate (place => left(i))
+               call part(problems(place), here(place)%numbers, displacements(:size(here(place)%numbers), 1, place), &
+                         growths(period, place))
+               passed(:, period, place) = here(place)%numbers([of_film, of_velocity])
                if (period < stretch_periods .or. mod(period, stretch_periods) /= 0) cycle
                partings(place) = parting_of(growths(1:period, place))
                apart(place) = .not. draws_near(partings(place))
@@ -103,6 +103,55 @@ contains
          if (partings(i)%for_good) paths(i)%states = passed(:, 1:, i)
       end do
    end subroutine follow_neighbours
+
+   !> Carry motions and their displacements through a period: those that have tangents with these, the others beside a neighbour.
+   subroutine pass_period(problems, left, here, displacements, passed)
+      !> What moves, and which of it
+      type(problem_t), intent(in) :: problems(:)
+      integer, intent(in) :: left(:)
+      !> Where the motions stand, at the start of a period and then at its end
+      type(motion_state_t), intent(inout) :: here(:)
+      !> Number of the state, 1, problem
+      real(dp), intent(inout) :: displacements(:, :, :)
+      !> Whether a motion and what is beside it could be followed
+      logical, intent(inout) :: passed(:)
+      type(request_t) :: one_period
+      type(motion_state_t) :: neighbours(size(problems))
+      type(ending_t) :: endings(2*size(problems))
+      real(dp) :: none(0, 2, 2*size(problems)), moved(size(displacements, 1), 1, size(problems))
+      integer, allocatable :: along(:), beside(:)
+      integer :: i, n
+
+      one_period = request_t(accuracy=map_accuracy, periods=1)
+      along = pack(left, has_tangents(problems(left), here(left), map_accuracy))
+      beside = pack(left,.not. has_tangents(problems(left), here(left), map_accuracy))
+      n = size(along)
+      moved(:, :, :n) = displacements(:, :, along)
+      if (n > 0) call solve_motions(problems(along), here(along), one_period, none(:, :, :n), endings(:n), &
+                                    displacements=moved(:, :, :n))
+      do i = 1, n
+         associate (place => along(i))
+            passed(place) = endings(i)%status == status_complete
+            here(place)%numbers = endings(i)%numbers
+            displacements(:, :, place) = moved(:, :, i)
+         end associate
+      end do
+      n = size(beside)
+      do i = 1, n
+         associate (place => beside(i))
+            neighbours(place) = motion_state_t(numbers=here(place)%numbers + displacements(:size(here(place)%numbers), 1, place))
+         end associate
+      end do
+      if (n > 0) call solve_motions([(problems(beside(i)), problems(beside(i)), i=1, n)], &
+                                    [(here(beside(i)), neighbours(beside(i)), i=1, n)], one_period, none(:, :, :2*n), endings(:2*n))
+      do i = 1, n
+         associate (place => beside(i), motion => endings(2*i - 1), neighbour => endings(2*i))
+            passed(place) = motion%status == status_complete .and. neighbour%status == status_complete
+            here(place)%numbers = motion%numbers
+            displacements(:size(motion%numbers), 1, place) = neighbour%numbers - motion%numbers
+         end associate
+      end do
+   end subroutine pass_period
 
    !> What the growth of the distance over the periods says. An exponent counts as positive if it is so by two standard errors, in
    !> each half of the periods, and in the last stretch: a motion that settles meanwhile parts from its neighbour only before.
@@ -129,19 +178,18 @@ contains
       draws_near = parting%exponent < -least_errors*parting%standard_error
    end function draws_near
 
-   !> How far a neighbour has left its motion after a period, and both for the next one: the neighbour brought back.
-   pure subroutine part(problem, motion, neighbour, pair, growth)
+   !> How far a displacement has grown in a period; for the next one it is brought back.
+   subroutine part(problem, motion, displacement, growth)
       type(problem_t), intent(in) :: problem
-      !> Numbers of both states
+      !> Numbers of the state of the motion
       real(dp), intent(in) :: motion(:)
-      real(dp), intent(in) :: neighbour(:)
-      !> Where both go on
-      type(motion_state_t), intent(out) :: pair(2)
+      !> Of these numbers, after the period and for the next one
+      real(dp), intent(inout) :: displacement(:)
       !> Logarithm by which their distance grew [-]
       real(dp), intent(out) :: growth
       real(dp) :: direction(size(motion)), farthest
 
-      direction = (neighbour - motion)/sizes_of_state(problem, motion, counts_as(problem, motion))
+      direction = displacement/sizes_of(problem, motion)
       farthest = maxval(abs(direction))
       ! Neighbours that have met tell no direction: what is left of their distance is less than the errors.
       if (.not. farthest > map_accuracy*distance) then
@@ -149,19 +197,17 @@ contains
          direction = farthest
       end if
       growth = log(farthest/distance)
-      pair = [motion_state_t(numbers=motion), displaced(problem, motion, direction/farthest)]
+      displacement = distance*(direction/farthest)*sizes_of(problem, motion)
    end subroutine part
 
-   !> A state a small distance from another.
-   pure type(motion_state_t) function displaced(problem, numbers, direction)
+   !> What the numbers of a state count as, each in its unit.
+   function sizes_of(problem, numbers) result(sizes)
       type(problem_t), intent(in) :: problem
-      !> Numbers of the state
+      !> Of the state
       real(dp), intent(in) :: numbers(:)
-      !> Of the displacement, the largest of its numbers 1
-      real(dp), intent(in) :: direction(:)
+      real(dp) :: sizes(size(numbers))
 
-      displaced = motion_state_t(numbers=numbers + distance*direction* &
-                                   sizes_of_state(problem, numbers, counts_as(problem, numbers)))
-   end function displaced
+      sizes = sizes_of_state(problem, numbers, counts_as(problem, numbers))
+   end function sizes_of
 
 end module lyapunov

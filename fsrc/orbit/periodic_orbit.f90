@@ -6,7 +6,7 @@
 module periodic_orbit
    use engine, only: ending_t, motion_state_t, request_t
    use kinds, only: dp
-   use many_motions, only: solve_motions
+   use many_motions, only: has_tangents, solve_motions
    use matrix_values, only: eigenvalues
    use carried_loads, only: counts_as, sizes_of_state, thinnest_film
    use linear_equations, only: solve_linear
@@ -55,7 +55,7 @@ module periodic_orbit
 contains
 
    !> Images of states under the period map; neighbours are solved together.
-   subroutine map_states(problem, periods, accuracy, states, mapped)
+   subroutine map_states(problem, periods, accuracy, states, mapped, slopes)
       !> What moves
       type(problem_t), intent(in) :: problem
       !> Periods of the force
@@ -66,17 +66,29 @@ contains
       real(dp), intent(inout) :: states(:, :)
       !> Whether every state could be followed to the end
       logical, intent(out) :: mapped
+      !> Of a single state whose motion has tangents, the slopes of its image: number of the image, number of the state
+      real(dp), intent(out), optional :: slopes(:, :)
       type(problem_t) :: problems(size(states, 2))
       type(motion_state_t) :: starts(size(states, 2))
       type(ending_t) :: endings(size(states, 2))
-      real(dp) :: none(0, 2, size(states, 2))
+      real(dp) :: none(0, 2, size(states, 2)), displacements(size(states, 1), size(states, 1), 1)
       integer :: i
 
       problems = problem
       do i = 1, size(starts)
          starts(i)%numbers = states(:, i)
       end do
-      call solve_motions(problems, starts, request_t(accuracy=accuracy, periods=periods), none, endings)
+      if (present(slopes)) then
+         displacements = 0.0_dp
+         do i = 1, size(states, 1)
+            displacements(i, i, 1) = 1.0_dp
+         end do
+         call solve_motions(problems, starts, request_t(accuracy=accuracy, periods=periods), none, endings, &
+                            displacements=displacements)
+         slopes = displacements(:, :, 1)
+      else
+         call solve_motions(problems, starts, request_t(accuracy=accuracy, periods=periods), none, endings)
+      end if
       mapped = all(endings%status == status_complete)
       do i = 1, size(endings)
          states(:, i) = endings(i)%numbers
@@ -173,8 +185,9 @@ contains
    end function shortest
 
    !> Fixed point of the map of some periods, and the multipliers there. The slopes of the map take many times what its value takes:
-   !> steps keep those of the step before as long as the changes fall fast, and the last one takes those at its end. Slopes are
-   !> differences to one side while the fixed point is sought with a coarser map, and central ones then.
+   !> steps keep those of the step before as long as the changes fall fast, and the last one takes those at its end. Where motions have
+   !> tangents, slopes are these; else differences, to one side while the fixed point is sought with a coarser map, and central ones
+   !> then.
    function newton(problem, period, start, scale, nearness) result(orbit)
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: period
@@ -184,11 +197,11 @@ contains
       !> Distance from the start at which a fixed point is of no use [-]
       real(dp), intent(in) :: nearness
       type(periodic_orbit_t) :: orbit
-      real(dp), dimension(size(start)) :: state, change, sizes, step
-      real(dp) :: states(size(start), 0:2*size(start)), jacobian(size(start), size(start)), matrix(size(start), size(start)), &
-                  solution(size(start), 1), thickness, moved, moved_before, distance, reach, &
+      real(dp), dimension(size(start)) :: state, change, sizes
+      real(dp) :: image(size(start), 1), jacobian(size(start), size(start)), matrix(size(start), size(start)), &
+                  solution(size(start), 1), thickness, accuracy, moved, moved_before, distance, reach, &
                   disturbance, disturbance_before
-      integer :: slopes_taken, i, n, last
+      integer :: slopes_taken, i, n
       logical :: mapped, anew, settled, solved, near_by
 
       n = size(start)
@@ -202,31 +215,24 @@ contains
          if (anew) slopes_taken = slopes_taken + 1
          if (slopes_taken > most_slopes) return
          sizes = sizes_of_state(problem, state, scale)
-         step = difference_step*sizes
-         states = spread(state, 2, 2*n + 1)
-         do i = 1, n
-            states(i, i) = state(i) + step(i)
-            states(i, n + i) = state(i) - step(i)
-         end do
-         last = 0
-         if (anew) last = merge(2*n, n, near_by)
-         call map_states(problem, period, merge(map_accuracy, search_accuracy, near_by), states(:, 0:last), mapped)
+         image(:, 1) = state
+         accuracy = merge(map_accuracy, search_accuracy, near_by)
+         if (.not. anew) then
+            call map_states(problem, period, accuracy, image, mapped)
+         else if (has_tangents(problem, motion_state_t(numbers=state), accuracy)) then
+            call map_states(problem, period, accuracy, image, mapped, jacobian)
+         else
+            call map_by_differences(problem, period, accuracy, difference_step*sizes, near_by, image, jacobian, mapped)
+         end if
          if (.not. mapped) return
          if (anew) then
-            do i = 1, n
-               if (near_by) then
-                  jacobian(:, i) = (states(:, i) - states(:, n + i))/(2.0_dp*step(i))
-               else
-                  jacobian(:, i) = (states(:, i) - states(:, 0))/step(i)
-               end if
-            end do
             ! (1 - J) change = image - state, in units of the scale
             do i = 1, n
                matrix(:, i) = -jacobian(:, i)*scale/scale(i)
                matrix(i, i) = matrix(i, i) + 1.0_dp
             end do
          end if
-         solution(:, 1) = (states(:, 0) - state)*scale
+         solution(:, 1) = (image(:, 1) - state)*scale
          call solve_linear(matrix, solution, solved)
          if (.not. solved) return
          change = solution(:, 1)/scale
@@ -269,5 +275,42 @@ contains
          return
       end do
    end function newton
+
+   !> Image of a state, and the slopes of the map there by differences; neighbours are solved together.
+   subroutine map_by_differences(problem, periods, accuracy, step, central, image, slopes, mapped)
+      type(problem_t), intent(in) :: problem
+      !> Periods of the force
+      integer, intent(in) :: periods
+      !> Relative accuracy of the film [-]
+      real(dp), intent(in) :: accuracy
+      !> Of each number of the state
+      real(dp), intent(in) :: step(:)
+      !> Whether to both sides
+      logical, intent(in) :: central
+      !> The state, replaced by its image
+      real(dp), intent(inout) :: image(:, :)
+      !> Number of the image, number of the state
+      real(dp), intent(out) :: slopes(:, :)
+      !> Whether every state could be followed to the end
+      logical, intent(out) :: mapped
+      real(dp) :: states(size(step), 0:2*size(step))
+      integer :: n, i
+
+      n = size(step)
+      states = spread(image(:, 1), 2, 2*n + 1)
+      do i = 1, n
+         states(i, i) = image(i, 1) + step(i)
+         states(i, n + i) = image(i, 1) - step(i)
+      end do
+      call map_states(problem, periods, accuracy, states(:, 0:merge(2*n, n, central)), mapped)
+      image(:, 1) = states(:, 0)
+      do i = 1, n
+         if (central) then
+            slopes(:, i) = (states(:, i) - states(:, n + i))/(2.0_dp*step(i))
+         else
+            slopes(:, i) = (states(:, i) - states(:, 0))/step(i)
+         end if
+      end do
+   end subroutine map_by_differences
 
 end module periodic_orbit
