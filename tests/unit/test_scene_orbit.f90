@@ -26,7 +26,7 @@ module test_scene_orbit
    !> A state of each: film [m], velocity [m/s], compressions of both teeth [m]
    real(dp), parameter :: states(4, 2) = reshape([2.10682816e-7_dp, -1.84484370e-2_dp, 4.46568997e-7_dp, 2.45830567e-10_dp, &
                                                   1.68137536e-8_dp, 4.73556093e-2_dp, 1.31078870e-6_dp, 4.29540728e-10_dp], [4, 2])
-   !> Moduli of their largest Floquet multipliers, by central differences of 1e-6 of what the numbers of a state count as
+   !> Moduli of their largest Floquet multipliers; the second by central differences of 1e-6 of what the numbers of a state count as
    real(dp), parameter :: moduli(2) = [0.5210_dp, 0.3514_dp]
 
    public :: run_scene_orbit_tests

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import rattle as package
+from rattle.keys import key_table
 
 
 @pytest.mark.long
@@ -42,6 +43,6 @@ def test_the_way_from_a_drawing_to_a_map(rattle: Path, repository: Path, tmp_pat
 
 def test_keys_of_the_page_are_keys(repository: Path) -> None:
     page = (repository / "input" / "FIRST_MAP.md").read_text()
-    known = {name for _, name in package.keys.key_table()}
+    known = {name for _, name in key_table()}
     named = re.findall(r"`(\w+_\w+)`", page.partition("## 2.")[0])
     assert {name for name in named if not name.startswith("_")} <= known
