@@ -345,7 +345,7 @@ contains
                           short_text(rattle%reversals_per_period, 3)//' reversals a period: '// &
                           spaced(quantity_word(quantity_rattle_class, rattle%class))// &
                           verified_in_brackets())
-            if (rattle%class == class_irregular .or. rattle%class == class_irregular_so_far) &
+            if (spectrum%sampling_sufficient .and. any(rattle%class == [class_irregular, class_irregular_so_far])) &
                call log%line('  The motion does not repeat within its window of '//counted(scene%spectrum%periods, 'period')// &
                              ': other windows have other numbers; more of spectrum.periods steadies them.')
          else

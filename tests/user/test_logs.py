@@ -110,6 +110,11 @@ def lines_of_window(told: Mapping[str, Any], given: Mapping[str, Any]) -> list[s
         f"acceleration {short(told['acceleration_minimum'], 5)} to "
         f"{short(told['acceleration_maximum'], 5)} m/s2{relative}",
         spectrum_words(told, verification),
+        "  The motion does not repeat within its window of "
+        f"{counted(given['spectrum']['periods'], 'period')}: other windows have other numbers; more of "
+        "spectrum.periods steadies them."
+        if told["rattle_class"].startswith("irregular") and told["sampling_sufficient"]
+        else None,
         f"  warning: {coarse_words(told, given)}" if told["series_coarse"] else None,
         f"  warning: {', and '.join(limits)} (model_limit)" if limits else None,
         *(lines_of_verification(told) if verification else []),

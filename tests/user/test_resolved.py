@@ -170,13 +170,14 @@ def test_multipliers_are_what_deviations_decay_by(repository: Path) -> None:
     steps = np.diff(ends / np.abs(ends).max(axis=1)[:, None], axis=1)
     # Steps of a linear map: d(n + 2) = 2 Re(m) d(n + 1) - |m|^2 d(n). Before period 30 bounces still change
     # in kind; at period 55 deviations have fallen to 2e-5, near the errors of steps: what is seen in the two
-    # windows differs by 1.2e-3, and they are held to that.
+    # windows differs by 1.2e-3. What is told moves by 1.3e-3 where films of the closure change in their last
+    # bits, and with them the steps of the nodes. Both together are the tolerance.
     for first in (30, 35):
         here = steps[:, first : first + 20]
         before = np.concatenate([np.stack([line[1:-1], line[:-2]], axis=1) for line in here])
         factors = np.linalg.lstsq(before, np.concatenate([line[2:] for line in here]), rcond=None)[0]
         seen = max(np.roots([1.0, -factors[0], -factors[1]]), key=lambda root: root.imag)
-        assert abs(seen - told[0]) < 1.5e-3, (first, seen, told)
+        assert abs(seen - told[0]) < 2.5e-3, (first, seen, told)
     assert told[0] == np.conj(told[1]) and solved.summary["orbit_stability"] == "stable"
     closure = {"lubricant.viscosity_law": "constant", "solver.starts": 1, "spectrum.verify": True}
     assert abs(multipliers_of(package.run(scene, set=closure).summary)[0] - told[0]) < 0.02
