@@ -78,11 +78,10 @@ contains
       !> Numbers of the states
       real(dp), intent(in) :: one(:)
       real(dp), intent(in) :: other(:)
-      real(dp) :: near(moving_numbers(problem))
+      integer :: n
 
-      near = known%near_film
-      near(of_velocity) = known%near_velocity
-      are_near = all(abs(one(:size(near)) - other(:size(near))) <= near)
+      n = moving_numbers(problem)
+      are_near = all(abs(one(:n) - other(:n)) <= near_of(problem, known))
    end function are_near
 
    !> Distance of two states by how gear and teeth stand and move, in units of what counts as near [-].
@@ -94,11 +93,20 @@ contains
       !> Numbers of the states
       real(dp), intent(in) :: one(:)
       real(dp), intent(in) :: other(:)
+      integer :: n
+
+      n = moving_numbers(problem)
+      distance = maxval(abs(one(:n) - other(:n))/near_of(problem, known))
+   end function distance_of
+
+   !> What counts as near of each number that moves.
+   pure function near_of(problem, known) result(near)
+      type(problem_t), intent(in) :: problem
+      type(known_motions_t), intent(in) :: known
       real(dp) :: near(moving_numbers(problem))
 
       near = known%near_film
       near(of_velocity) = known%near_velocity
-      distance = maxval(abs(one(:size(near)) - other(:size(near)))/near)
-   end function distance_of
+   end function near_of
 
 end module known_motions

@@ -384,7 +384,7 @@ contains
    end subroutine go_on
 
    !> Where the periods of a start come near each other, find the motion that it settles on.
-   subroutine look_for_repetition(scene, judged, place, followers, settled, error, within)
+   subroutine look_for_repetition(scene, judged, place, followers, settled, error, ahead_within)
       type(scene_t), intent(in) :: scene
       type(judged_scene_t), intent(inout) :: judged
       !> Which start
@@ -393,8 +393,9 @@ contains
       !> Motions that are known; another one is added
       type(settled_motion_t), allocatable, intent(inout) :: settled(:)
       type(error_t), allocatable, intent(out) :: error
-      !> Distance of its periods up to which one is looked for, whatever was tried; absent: as they come near each other [-]
-      real(dp), intent(in), optional :: within
+      !> Of a start that has had all its periods, distance of these up to which a motion ahead of its end is looked for, whatever was
+      !> tried; absent: next to its end, as its periods come near each other [-]
+      real(dp), intent(in), optional :: ahead_within
       type(periodic_orbit_t) :: orbit
       type(told_motion_t) :: told
       type(settled_motion_t) :: one
@@ -406,11 +407,11 @@ contains
       associate (problem => judged%resolved%problem, past => followers%past(:, :, place))
          distance = distance_of_periods(problem, past)
          limit = min(first_try, next_try*followers%tried(place))
-         if (present(within)) limit = within
+         if (present(ahead_within)) limit = ahead_within
          if (distance > limit) return
          followers%tried(place) = distance
          here%numbers = followers%states(place)%numbers
-         if (present(within)) then
+         if (present(ahead_within)) then
             orbit = orbit_ahead(problem, here)
          else
             orbit = nearby_orbit(problem, here)

@@ -2,7 +2,7 @@
 module scene_orbit
    use engine, only: ending_t, motion_state_t, request_t
    use kinds, only: dp
-   use known_motions, only: are_near, distance_of
+   use known_motions, only: are_near, distance_of, known_motions_t
    use many_motions, only: solve_motions
    use periodic_orbit, only: attracting_period, find_periodic_orbit, map_states, periodic_orbit_t
    use problem, only: problem_t
@@ -47,15 +47,14 @@ contains
       type(problem_t), intent(in) :: problem
       !> Where its motion ended
       class(motion_state_t), intent(in) :: ending
+      logical :: comes
 
       call unlock_texts()
       orbit = find_periodic_orbit(problem, ending%numbers, ahead_nearness)
       if (attracting_period(orbit) == 0) orbit = find_periodic_orbit(problem, ending%numbers, huge(1.0_dp), longest_ahead)
-      if (attracting_period(orbit) > 0) then
-         if (.not. comes_to(problem, ending, orbit)) orbit = periodic_orbit_t()
-      else
-         orbit = periodic_orbit_t()
-      end if
+      comes = attracting_period(orbit) > 0
+      if (comes) comes = comes_to(problem, ending, orbit)
+      if (.not. comes) orbit = periodic_orbit_t()
       call lock_texts()
    end function orbit_ahead
 
@@ -65,6 +64,7 @@ contains
       class(motion_state_t), intent(in) :: from
       !> A stable one
       type(periodic_orbit_t), intent(in) :: orbit
+      type(known_motions_t) :: measure
       type(ending_t) :: endings(1)
       real(dp) :: states(parts*part_periods, size(from%numbers), 1), on_orbit(size(from%numbers), 1), &
                   distances(parts*part_periods), farthest(parts)
@@ -76,11 +76,12 @@ contains
                          request_t(accuracy=ahead_accuracy, periods=size(states, 1), samples_per_period=1, &
                                    sampled_periods=size(states, 1)), states, endings)
       if (endings(1)%status /= status_complete) return
+      measure = near_states(problem)
       distances = huge(1.0_dp)
       on_orbit(:, 1) = orbit%state
       do period = 1, orbit%period
          do i = 1, size(distances)
-            distances(i) = min(distances(i), distance_of(problem, near_states(problem), states(i, :, 1), on_orbit(:, 1)))
+            distances(i) = min(distances(i), distance_of(problem, measure, states(i, :, 1), on_orbit(:, 1)))
          end do
          call map_states(problem, 1, ahead_accuracy, on_orbit, mapped)
          if (.not. mapped) return
