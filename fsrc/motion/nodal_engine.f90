@@ -152,7 +152,8 @@ contains
          call watcher%period_done(period, last)
          if (period == last) exit
          ending%status = status_of_stop(request, started)
-         if (ending%status == status_complete .and. is_late(choice)) ending%status = status_time_limit
+         if (ending%status /= status_complete) return
+         if (is_late(choice)) ending%status = status_time_limit
          if (ending%status /= status_complete) return
       end do
       if (ending%orbit > 0) ending%status = status_steady
