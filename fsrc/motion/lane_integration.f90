@@ -64,7 +64,7 @@ contains
       type(known_motions_t), optional, intent(in) :: known(:)
       !> Small displacements of the starts of motions that have tangents, then of their ends: number of the state, displacement,
       !> scene
-      real(dp), optional, intent(inout) :: displacements(:, :, :)
+      real(dp), optional, allocatable, intent(inout) :: displacements(:, :, :)
       type(lane_run_t) :: run
       real(dp), allocatable, target :: room(:)
       integer :: l, events
@@ -132,7 +132,7 @@ contains
       type(orbit_watch_t), optional, intent(in) :: watches(:)
       type(window_record_t), optional, intent(inout) :: records(:)
       !> As of integrate_lanes
-      real(dp), optional, intent(in) :: displacements(:, :, :)
+      real(dp), optional, allocatable, intent(in) :: displacements(:, :, :)
       integer :: scene, status
 
       run%watches(lane) = lane_watch_t()

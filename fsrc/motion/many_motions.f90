@@ -43,8 +43,9 @@ contains
       !> Periodic motions that are known, problem by problem: a run until steady that comes to one of them ends there
       type(known_motions_t), optional, intent(in) :: known(:)
       !> Small displacements of the starts, where all motions have tangents, and on return of their ends: number of the state,
-      !> displacement, problem; each in its unit times any number
-      real(dp), optional, intent(inout) :: displacements(:, :, :)
+      !> displacement, problem; each in its unit times any number. Allocatable, since gfortran 12 works out bounds of other arrays
+      !> that are absent
+      real(dp), optional, allocatable, intent(inout) :: displacements(:, :, :)
       type(request_t) :: asked
       type(motion_state_t), allocatable :: rest(:)
       logical, allocatable :: explicit(:), left(:), alike(:)

@@ -118,7 +118,8 @@ contains
       type(request_t) :: one_period
       type(motion_state_t) :: neighbours(size(problems))
       type(ending_t) :: endings(2*size(problems))
-      real(dp) :: none(0, 2, 2*size(problems)), moved(size(displacements, 1), 1, size(problems))
+      real(dp) :: none(0, 2, 2*size(problems))
+      real(dp), allocatable :: moved(:, :, :)
       integer, allocatable :: along(:), beside(:)
       integer :: i, n
 
@@ -126,9 +127,9 @@ contains
       along = pack(left, has_tangents(problems(left), here(left), map_accuracy))
       beside = pack(left,.not. has_tangents(problems(left), here(left), map_accuracy))
       n = size(along)
-      moved(:, :, :n) = displacements(:, :, along)
+      moved = displacements(:, :, along)
       if (n > 0) call solve_motions(problems(along), here(along), one_period, none(:, :, :n), endings(:n), &
-                                    displacements=moved(:, :, :n))
+                                    displacements=moved)
       do i = 1, n
          associate (place => along(i))
             passed(place) = endings(i)%status == status_complete

@@ -71,7 +71,8 @@ contains
       type(problem_t) :: problems(size(states, 2))
       type(motion_state_t) :: starts(size(states, 2))
       type(ending_t) :: endings(size(states, 2))
-      real(dp) :: none(0, 2, size(states, 2)), displacements(size(states, 1), size(states, 1), 1)
+      real(dp) :: none(0, 2, size(states, 2))
+      real(dp), allocatable :: displacements(:, :, :)
       integer :: i
 
       problems = problem
@@ -79,7 +80,7 @@ contains
          starts(i)%numbers = states(:, i)
       end do
       if (present(slopes)) then
-         displacements = 0.0_dp
+         allocate (displacements(size(states, 1), size(states, 1), 1), source=0.0_dp)
          do i = 1, size(states, 1)
             displacements(i, i, 1) = 1.0_dp
          end do
