@@ -11,7 +11,8 @@ module published_iso_viscous
    !> Factor of the rolling term as printed in (23); Reynolds film: 12 Phi(0) = 2.447 with u = u1 + u2.
    real(dp), parameter :: rolling_factor = 2.8_dp
 
-   public :: rolling_coefficient, squeeze_coefficient, half_pi_rupture_load, solved_rupture_load, published_stiffness_damping
+   public :: rolling_coefficient, squeeze_coefficient, half_pi_rupture_load, solved_rupture_load, published_stiffness_damping, &
+             width_of_film
 
 contains
 
@@ -40,6 +41,18 @@ contains
 
       squeeze_coefficient = 3.0_dp*length*viscosity*radius*sqrt(radius)/sqrt(2.0_dp)
    end function squeeze_coefficient
+
+   !> x_e + pi/2, with all its digits where a film that separates fast is short.
+   elemental real(dp) function width_of_film(rupture_tangent)
+      !> t_e = tan x_e of (18) [-]
+      real(dp), intent(in) :: rupture_tangent
+
+      if (rupture_tangent < 0.0_dp) then
+         width_of_film = atan(-1.0_dp/rupture_tangent)
+      else
+         width_of_film = half_pi + atan(rupture_tangent)
+      end if
+   end function width_of_film
 
    !> Load of (35), x_e = pi/2 on approach and separation: the film can pull, as printed.
    elemental subroutine half_pi_rupture_load(rolling, squeeze, film, velocity, load, load_by_film, load_by_velocity)
@@ -91,7 +104,7 @@ contains
 
       inverse = 1.0_dp/film
       damping = squeeze*(inverse*inverse*sqrt(film))
-      width = atan(rupture_tangent) + half_pi
+      width = width_of_film(rupture_tangent)
       width_by_log_a = a*rupture_tangent_slope(a)/(1.0_dp + rupture_tangent*rupture_tangent)
       load = rolling*inverse - damping*velocity*width
       load_by_film = (damping*velocity*(1.5_dp*width + 0.5_dp*width_by_log_a) - rolling*inverse)*inverse
@@ -119,7 +132,7 @@ contains
       !> -dW/dw at fixed x_e [N s/m]
       real(dp), intent(out) :: damping
 
-      damping = squeeze*(atan(rupture_tangent) + half_pi)/(film*sqrt(film))
+      damping = squeeze*width_of_film(rupture_tangent)/(film*sqrt(film))
       stiffness = (rolling/film - 1.5_dp*damping*velocity)/film
    end subroutine published_stiffness_damping
 

@@ -5,10 +5,10 @@
 !> A is tabulated over the load as well, which takes a twentieth of the time.
 module squeeze_of_load
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use constants, only: half_pi
    use kinds, only: dp, int64
    use load_pieces, only: exact_load, first_load, last_load_piece, load_limit, octave_pieces, piece_degree, squeezes, &
                           tabulated_published => published_load
+   use published_iso_viscous, only: width_of_film
    use reynolds_iso_viscous, only: iso_viscous_load, peak_pressure_group, rupture_tangent_fast, rupture_tangent_slope
    use reynolds_piezo_viscous, only: piezo_viscous_load
    implicit none(type, external)
@@ -286,8 +286,7 @@ contains
          if (ieee_is_nan(value)) value = 0.0_dp
       case (published_load)
          tangent = rupture_tangent_fast(a)
-         width = half_pi + atan(tangent)
-         if (tangent < 0.0_dp) width = atan(-1.0_dp/tangent)
+         width = width_of_film(tangent)
          value = last_width - a*width
          slope = -(width + a*rupture_tangent_slope(a)/(1.0_dp + tangent*tangent))
       case default

@@ -86,7 +86,7 @@ contains
          trial%flanks = merge(2, 1, block%backlash(l) < huge(1.0_dp))
          call start_films(contacts(l), l, block, trial)
          if (inner(l)%count > 0) call first_states(l, block, trial%flanks, inner(l), states)
-         call first_loads(l, block, contacts(l), inner(l), trial%flanks, trial%load)
+         call first_loads(l, block, contacts(l), inner(l), trial)
          lane_force(:stages) = force(l, :)
          lane_force(rows) = force(l, stages)
          call solve(contacts(l), l, lane_force, block, inner(l), trial, states)
@@ -158,25 +158,34 @@ contains
    end subroutine start_films
 
    !> First iterate: the polynomials of the step before, or the loads at its end where they would be carried too far.
-   pure subroutine first_loads(lane, block, contact, inner, flanks, load)
+   pure subroutine first_loads(lane, block, contact, inner, trial)
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
       type(flank_contact_t), intent(in) :: contact
       type(lane_inner_t), intent(in) :: inner
-      integer, intent(in) :: flanks
-      real(dp), intent(inout) :: load(rows, 2)
+      type(trial_t), intent(inout) :: trial
+      real(dp) :: base
       integer :: flank
 
-      do flank = 1, flanks
+      base = 0.0_dp
+      do flank = 1, trial%flanks
+         if (block%compliance(lane) > 0.0_dp) base = start_load(lane, block, contact, inner, flank)
          if (can_extrapolate(lane, block)) then
-            call carry_on(block%load_polynomial(lane, :, flank), block%step(lane)/block%last_step(lane), load(:, flank))
+            call carry_on(block%load_polynomial(lane, :, flank), block%step(lane)/block%last_step(lane), trial%gain(:, flank))
+            if (block%compliance(lane) > 0.0_dp) &
+               trial%gain(:, flank) = trial%gain(:, flank) - sum(block%load_polynomial(lane, :, flank))
+            trial%load(:, flank) = base + trial%gain(:, flank)
          else
-            load(:, flank) = start_load(lane, block, contact, inner, flank)
+            trial%load(:, flank) = start_load(lane, block, contact, inner, flank)
+            trial%gain(:, flank) = trial%load(:, flank) - base
          end if
          ! Between nodes a polynomial may fall below what a film that never pulls can carry.
          if (.not. carries_positive_loads(contact)) cycle
-         if (minval(load(:, flank)) > 0.0_dp) cycle
-         where (.not. load(:, flank) > 0.0_dp) load(:, flank) = start_load(lane, block, contact, inner, flank)
+         if (minval(trial%load(:, flank)) > 0.0_dp) cycle
+         where (.not. trial%load(:, flank) > 0.0_dp)
+            trial%load(:, flank) = start_load(lane, block, contact, inner, flank)
+            trial%gain(:, flank) = trial%load(:, flank) - base
+         end where
       end do
    end subroutine first_loads
 
@@ -236,6 +245,7 @@ contains
          end do
          before = trial
          trial%load(:, :trial%flanks) = before%load(:, :trial%flanks) + correction(:, :trial%flanks)
+         trial%gain(:, :trial%flanks) = before%gain(:, :trial%flanks) + correction(:, :trial%flanks)
          call follow_loads(contact, lane, force, block, trial)
          share = 1.0_dp
          do flank = 1, trial%flanks
@@ -248,6 +258,7 @@ contains
          if (share < 1.0_dp) then
             trial = before
             trial%load(:, :trial%flanks) = before%load(:, :trial%flanks) + share*correction(:, :trial%flanks)
+            trial%gain(:, :trial%flanks) = before%gain(:, :trial%flanks) + share*correction(:, :trial%flanks)
             call follow_loads(contact, lane, force, block, trial)
          end if
          state_change = 0.0_dp
@@ -302,7 +313,7 @@ contains
             call weigh(power_rows, trial%acceleration, polynomial(:, 0))
             error = error_of_acceleration(polynomial(:stages, 0), s, 1.0_dp/free_rate)
             do flank = 1, trial%flanks
-               call weigh(power_rows, trial%load(:, flank), polynomial(:, flank))
+               call weigh(power_rows, trial%gain(:, flank), polynomial(:, flank))
                call highest_terms(polynomial(:stages, flank), top, next)
                error = max(error, max(top/last_share, next)*kappa)
                if (.not. bends) cycle
@@ -342,7 +353,7 @@ contains
       associate (s => block%step(lane))
          do flank = 1, flanks
             shifted = block%compliance(lane)*powers_of_place(block%load_polynomial(lane, :, flank))
-            call meet_start(block%compression(lane, flank, 0), shifted)
+            call meet_start(0.0_dp, shifted)
             scale = 1.0_dp
             do j = 1, stages
                scale = scale/s

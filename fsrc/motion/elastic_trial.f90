@@ -13,6 +13,9 @@ module elastic_trial
       integer :: flanks = 1
       !> Loads W, films H, film velocities H', and the films at the start
       real(dp) :: load(rows, 2) = 0.0_dp, film(rows, 2) = 0.0_dp, velocity(rows, 2) = 0.0_dp, start(2) = 0.0_dp
+      !> Loads less those of the springs at the start, with digits of their own: a soft tooth is compressed by millions of its film,
+      !> which the difference of two compressions would leave without digits. Without springs the loads
+      real(dp) :: gain(rows, 2) = 0.0_dp
       !> Compression of flanks that bend by their width, at the start too; how the compression follows the film, as a share of the
       !> gear's way, and what a load moves its film by
       real(dp) :: width(rows, 2) = 0.0_dp, start_width(2) = 0.0_dp, follows(rows, 2) = 0.0_dp, compliance(rows, 2) = 0.0_dp
@@ -47,7 +50,7 @@ contains
          trial%lienard = block%lienard(lane, 0) + s*once
          trial%way = s*(node_rows*block%lienard(lane, 0) + s*twice)
          do flank = 1, trial%flanks
-            yielded(:, flank) = kappa*trial%load(:, flank) - block%compression(lane, flank, 0)
+            yielded(:, flank) = kappa*trial%gain(:, flank)
             gap(:, flank) = trial%start(flank) + (sign_of(flank)*trial%way + yielded(:, flank))
          end do
          if (contact%film%bends) then
