@@ -6,9 +6,9 @@
 !> with and without a state are contacts of different numbers; one flank or two are one contact or two. Flanks that bend are
 !> compressed by what follows the width of the contact beside d, w(h, W) of module film_law.
 module flank_contact
-   use film_law, only: film_kernel, film_load, film_loads, film_over_gap, films_over_gaps, kernel_of, film_t, law_words, &
-      mixed_film_loads, most_films, never_pulls, new_film, overflow_load, squeeze_velocities, squeeze_velocity, steady_film, &
-      width_compression
+   use film_law, only: film_kernel, film_load, film_loads, film_over_gap, films_over_gaps, kept_load, kernel_of, film_t, &
+      law_words, mixed_film_loads, most_films, never_pulls, new_film, overflow_load, squeeze_velocities, squeeze_velocity, &
+      steady_film, width_compression
    use film_state, only: film_response_t, load_t, state_number_t
    use film_states, only: count_of_state, number_of_state, place_of_law, respond_of_state, rest_of_state, words_of_state
    use flank_elasticity, only: flank_compliance
@@ -48,10 +48,10 @@ module flank_contact
    !> Slope of the load over the velocity of a film without squeeze, over that slope where it tells no velocity any more
    real(dp), parameter :: flattest = 1.0e3_dp
 
-   public :: contact_of, contact_words, is_elastic, carries_positive_loads, is_costly, inner_count, inner_number, inner_at_rest, &
-             film_under, load_of_contact, load_at_rest, loads_of_contact, mixed_loads, velocity_under, equations_of_films, &
-             compliance_at_rest, &
-             overflow_load, film_kernel, kernel_of_contact, film_over_gap, films_over_gaps, most_films, width_compression
+   public :: contact_of, contact_words, is_elastic, carries_positive_loads, keeps_load, is_costly, inner_count, inner_number, &
+             inner_at_rest, film_under, load_of_contact, load_at_rest, loads_of_contact, mixed_loads, velocity_under, &
+             equations_of_films, compliance_at_rest, &
+             overflow_load, film_kernel, kernel_of_contact, film_over_gap, films_over_gaps, kept_load, most_films, width_compression
 
 contains
 
@@ -221,8 +221,8 @@ contains
    !> Equations of films without a state of their own: those of velocities where a load tells its velocity. A short step leaves the
    !> load where it is, but not the velocity of the film, and where loads hardly tell it an equation of them would be far from
    !> linear. Of a film that may pull or holds on to a part of its load it is so until that part is all that is left, which tells no
-   !> velocity.
-   pure subroutine equations_of_films(contact, n, thickness, load, velocity, equations)
+   !> velocity: from there on where the step is so short that a load that changes moves the velocity by more than the law says.
+   pure subroutine equations_of_films(contact, n, thickness, load, velocity, follows, equations)
       type(flank_contact_t), intent(in) :: contact
       !> How many, at most most_films
       integer, intent(in) :: n
@@ -230,6 +230,8 @@ contains
       real(dp), intent(in) :: thickness(n)
       real(dp), intent(in) :: load(n)
       real(dp), intent(in) :: velocity(n)
+      !> By how much the step lets h' follow W, about [m/(N s)]
+      real(dp), intent(in) :: follows
       !> The first n of them are set
       type(film_equations_t), intent(out) :: equations
       integer :: outcome(most_films), i
@@ -241,7 +243,7 @@ contains
          these%overloaded(:n) = outcome(:n) == load_too_large
          if (never_pulls(contact%film)) return
          do i = 1, n
-            if (tells_velocity(contact, thickness(i), these%by_other(i), outcome(i))) cycle
+            if (tells_velocity(contact, thickness(i), these%by_other(i), follows, outcome(i))) cycle
             call film_load(contact%film, thickness(i), velocity(i), these%value(i), these%by_film(i), these%by_other(i))
             these%of_velocities(i) = .false.
             these%exists(i) = abs(these%value(i)) < overflow_load
@@ -251,19 +253,23 @@ contains
    end subroutine equations_of_films
 
    !> Whether the load of a film that may pull, or holds on to a part of it, tells its velocity.
-   pure logical function tells_velocity(contact, thickness, velocity_by_load, outcome)
+   pure logical function tells_velocity(contact, thickness, velocity_by_load, follows, outcome)
       type(flank_contact_t), intent(in) :: contact
       !> h [m], slope of its velocity at the load [m/(N s)]
       real(dp), intent(in) :: thickness
       real(dp), intent(in) :: velocity_by_load
+      !> By how much the step lets the velocity follow the load, about [m/(N s)]
+      real(dp), intent(in) :: follows
       !> Whether there is such a velocity, one of load_...
       integer, intent(in) :: outcome
       type(load_t) :: still
 
       tells_velocity = .false.
-      if (outcome /= load_carried) return
+      if (outcome /= load_carried .or. .not. velocity_by_load < 0.0_dp) return
+      tells_velocity = -velocity_by_load < follows
+      if (tells_velocity) return
       call film_load(contact%film, thickness, 0.0_dp, still%load, still%by_film, still%by_velocity)
-      tells_velocity = velocity_by_load < 0.0_dp .and. velocity_by_load*still%by_velocity < flattest
+      tells_velocity = velocity_by_load*still%by_velocity < flattest
    end function tells_velocity
 
    !> Compliance of a flank at rest against small changes of its film or its load: of the film a share is left to the gear and the
@@ -290,6 +296,13 @@ contains
 
       carries_positive_loads = never_pulls(contact%film)
    end function carries_positive_loads
+
+   !> Whether a film keeps a part of its load however fast it separates.
+   elemental logical function keeps_load(contact)
+      type(flank_contact_t), intent(in) :: contact
+
+      keeps_load = kept_load(contact%film, 1.0_dp) > 0.0_dp
+   end function keeps_load
 
    !> Whether an evaluation costs much more than the arithmetic around it.
    elemental logical function is_costly(contact)

@@ -19,7 +19,8 @@ module film_law
    use scene_types, only: film_choice_t, law_elastohydrodynamic, law_iso_viscous, law_piezo_viscous, model_closure, &
                           model_published, model_resolved, model_reynolds, rupture_half_pi, rupture_solved, rupture_solver_fast, &
                           rupture_solver_successive, scene_t, viscosity_constant
-   use squeeze_of_load, only: iso_viscous_squeeze, load_carried, load_too_small, piezo_viscous_squeeze, published_squeeze
+   use squeeze_of_load, only: iso_viscous_squeeze, load_carried, load_too_small, piezo_viscous_squeeze, published_squeeze, &
+                              share_kept
    implicit none(type, external)
    private
 
@@ -92,7 +93,8 @@ module film_law
    end interface
 
    public :: new_film, with_exact_film, kernel_of, film_load, film_loads, mixed_film_loads, steady_film, squeeze_velocity, &
-             squeeze_velocities, width_compression, film_over_gap, films_over_gaps, most_films, never_pulls, law_words, film_kernel
+             squeeze_velocities, width_compression, kept_load, film_over_gap, films_over_gaps, most_films, never_pulls, law_words, &
+             film_kernel
 
 contains
 
@@ -322,6 +324,20 @@ contains
 
       never_pulls = film%exact .or. film%pressure_thickens
    end function never_pulls
+
+   !> Load that a film keeps however fast it separates [N]; none of a law that may pull, which has no such limit.
+   elemental real(dp) function kept_load(film, thickness)
+      type(film_t), intent(in) :: film
+      !> Film thickness h > 0 [m]
+      real(dp), intent(in) :: thickness
+
+      select case (film%kernel)
+      case (kernel_solved_fast, kernel_solved_successive)
+         kept_load = share_kept*film%rolling/thickness
+      case default
+         kept_load = merge(0.0_dp, -huge(1.0_dp), never_pulls(film))
+      end select
+   end function kept_load
 
    !> Film velocity at which a film carries a load, and its slopes. Those of a film that carries it at no velocity, and of a law
    !> that is not known, are 0.

@@ -17,6 +17,9 @@ module squeeze_of_load
    !> Whether some squeeze velocity gives the load: one does; all give more; all that leave a film give less.
    integer, parameter, public :: load_carried = 0, load_too_small = -1, load_too_large = 1
 
+   !> Of the load without squeeze what the published film (24) with x_e solved carries however fast it separates
+   real(dp), parameter, public :: share_kept = load_limit(tabulated_published)
+
    public :: iso_viscous_squeeze, piezo_viscous_squeeze, published_squeeze
 
    !> What falls with A: Phi of the Reynolds film, its max p*, Psi, and 8/3 - A (x_e + pi/2) of the published load (24)
@@ -202,7 +205,7 @@ contains
       integer, intent(out) :: outcome
       real(dp) :: above_limit, width, slope
 
-      above_limit = load_share - load_limit(tabulated_published)
+      above_limit = load_share - share_kept
       if (is_tabulated(above_limit)) then
          call look_up(tabulated_published, above_limit, a, a_by_load)
          outcome = load_carried

@@ -13,7 +13,12 @@ module elastic_equations
    !> Slopes of the equations at the nodes, of one flank after the other: by the film, by its velocity and by its load [-]
    type, public :: slopes_t
       real(dp), dimension(most_films) :: by_film = 0.0_dp, by_velocity = 0.0_dp, by_load = 0.0_dp
+      !> Whether the equation is that of velocities
+      logical, dimension(most_films) :: of_velocities = .false.
    end type slopes_t
+
+   !> Weight of a load at a node in the velocity of its film there, about: what the table of slopes has on its diagonal
+   real(dp), parameter :: velocity_share = 10.0_dp
 
    public :: imbalances, newton_matrix
 
@@ -39,7 +44,9 @@ contains
          loads(:, flank) = trial%load(:, flank)*block%force_scale(lane)
          velocities(:, flank) = trial%velocity(:, flank)*block%velocity_scale(lane)
       end do
-      call equations_of_films(contact, n, films, loads, velocities, laws)
+      call equations_of_films(contact, n, films, loads, velocities, velocity_share*block%compliance(lane)/block%step(lane)* &
+                              (block%velocity_scale(lane)/block%force_scale(lane)), laws)
+      slopes%of_velocities(:n) = laws%of_velocities(:n)
       right(n + 1:) = 0.0_dp
       call scale_laws(n, block%film_scale(lane), block%velocity_scale(lane), block%force_scale(lane), laws, trial%load, &
                       trial%velocity, right, slopes)

@@ -10,7 +10,7 @@
 !>
 !> for the coast film with the signs of Z and V turned (module elastic_trial). The film law at each node is solved for the loads by
 !> Newton's method with its slopes (module elastic_equations): as H_i' = w(H_i, W_i) where its load tells its velocity, else as
-!> W(H_i, H_i') = W_i. Nothing here grows with the stiffness: at kappa = 0 these are the equations of module collocation_step. A
+!> W(H_i, H_i') = W_i. The loads count from those of the springs at the start, so that kappa W_i - D_1 keeps its digits. Nothing here grows with the stiffness: at kappa = 0 these are the equations of module collocation_step. A
 !> state of a film is taken out of these equations contact by contact (module inner_step), and brought after once the loads are
 !> corrected.
 !>
@@ -23,7 +23,8 @@ module elastic_step
    use elastic_tangents, only: carry_tangents, lane_tangents_t
    use elastic_trial, only: follow_loads, sign_of, trial_t
    use film_state, only: load_t
-   use flank_contact, only: carries_positive_loads, film_over_gap, flank_contact_t, load_of_contact, width_compression
+   use flank_contact, only: carries_positive_loads, film_over_gap, flank_contact_t, keeps_load, kept_load, load_of_contact, &
+      width_compression
    use inner_equations, only: error_of_states, first_states, follow_films, inner_imbalances, inner_matrix, series_of_states, &
       trial_inner_t
    use kinds, only: dp
@@ -205,8 +206,9 @@ contains
       real(dp) :: matrix(most_rows, most_columns), right(most_rows), solution(most_columns), correction(rows, 2)
       real(dp) :: change, last_change, ratio, reach, share, state_change
       integer :: pass, flank, i
-      logical :: found, stalled, rising, anew
+      logical :: found, stalled, rising, anew, of_velocities(most_rows)
 
+      of_velocities = .false.
       last_change = huge(1.0_dp)
       ! What an error of one in the loads moves the films by
       reach = max(block%step(lane)*min(block%step(lane), 1.0_dp/free_rate), block%compliance(lane))
@@ -220,6 +222,8 @@ contains
             anew = .true.
          else
             call imbalances(contact, lane, block, trial, right, slopes, found)
+            anew = anew .or. any(slopes%of_velocities .neqv. of_velocities)
+            of_velocities = slopes%of_velocities
          end if
          if (.not. found) return
          if (anew) then
@@ -255,6 +259,7 @@ contains
                   share = min(share, (1.0_dp - least_ratio)*before%film(i, flank)/(before%film(i, flank) - trial%film(i, flank)))
             end do
          end do
+         if (keeps_load(contact)) call stay_above(contact, lane, block, before, trial, of_velocities, share, rising)
          if (share < 1.0_dp) then
             trial = before
             trial%load(:, :trial%flanks) = before%load(:, :trial%flanks) + share*correction(:, :trial%flanks)
@@ -281,6 +286,47 @@ contains
          last_change = change
       end do
    end subroutine solve
+
+   !> Let loads stay above those that their films keep however fast they separate, at nodes whose equations are those of velocities:
+   !> there the velocity goes with a negative power of what is above, as with the load of a film that never pulls.
+   pure subroutine stay_above(contact, lane, block, before, trial, of_velocities, share, rising)
+      type(flank_contact_t), intent(in) :: contact
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      !> Before and after the correction
+      type(trial_t), intent(in) :: before
+      type(trial_t), intent(in) :: trial
+      !> Of each node of one flank after the other, whether its equation is that of velocities
+      logical, intent(in) :: of_velocities(most_rows)
+      !> Of the correction, to be applied
+      real(dp), intent(inout) :: share
+      !> Whether a correction raises what is above too much to be the last one
+      logical, intent(inout) :: rising
+      real(dp) :: above, next
+      integer :: flank, i
+
+      do flank = 1, trial%flanks
+         do i = 1, stages
+            if (.not. of_velocities(rows*(flank - 1) + i)) cycle
+            if (.not. min(before%film(i, flank), trial%film(i, flank)) > 0.0_dp) cycle
+            above = before%load(i, flank) - kept(before%film(i, flank))
+            next = trial%load(i, flank) - kept(trial%film(i, flank))
+            if (next < least_ratio*above) share = min(share, (1.0_dp - least_ratio)*above/(above - next))
+            rising = rising .or. next > (1.0_dp + last_rise)*above + rounding*trial%load(i, flank)
+         end do
+      end do
+
+   contains
+
+      !> [-]
+      pure real(dp) function kept(film)
+         !> H [-]
+         real(dp), intent(in) :: film
+
+         kept = kept_load(contact%film, film*block%film_scale(lane))/block%force_scale(lane)
+      end function kept
+
+   end subroutine stay_above
 
    !> Error that the accuracy allows to the films of a step, where the thinner one of both is thickest or thinnest [-].
    pure real(dp) function allowed_here(lane, block, trial)

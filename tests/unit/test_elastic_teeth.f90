@@ -65,6 +65,7 @@ contains
       call test_no_company(checks)
       call test_soft_teeth(checks)
       call test_lost_load(checks)
+      call test_kept_load(checks)
    end subroutine run_elastic_teeth_tests
 
    !> The canonical scene, steady under Q + m g, on elastic teeth.
@@ -234,6 +235,45 @@ contains
          end do
       end do
    end subroutine test_lost_load
+
+   !> Films that rupture by (18) keep a part of their load. Of three motions from rest the first has a film that is short while it
+   !> separates fast, the second a spring that is pressed by millions of its film, the third loads next to the kept one in steps that
+   !> end within an impact: each was given up. The references are those of scipy's Radau method at tolerances of 1e-10 and 1e-9, for
+   !> the logarithm of the film, with equations of their own.
+   subroutine test_kept_load(checks)
+      type(check_list_t), intent(inout) :: checks
+      !> k [N/m], eta0 [Pa s], U [m/s], F0 [N], f_exc [Hz]; smallest and largest film of the fourth period [m]
+      real(dp), parameter :: motions(7, 3) = reshape([ &
+         7.39e6_dp, 0.234_dp, 0.0279_dp, 261.0_dp, 181.0_dp, 1.4951104e-9_dp, 1.03253992e-3_dp, &
+         3599280.3270976157_dp, 0.009281705312695244_dp, 0.2662864857679972_dp, 3180.7103920638256_dp, 51.11087858632672_dp, &
+         1.2790428549e-1_dp, 1.4747779942e-1_dp, &
+         5.234e6_dp, 0.02513_dp, 0.03499_dp, 916.0_dp, 462.8_dp, 1.12934450e-8_dp, 4.29603416e-5_dp], [7, 3])
+      type(scene_t) :: scene
+      type(problem_t) :: problem
+      type(ending_t) :: ending
+      type(window_record_t) :: record
+      real(dp), allocatable :: states(:, :), z(:)
+      integer :: i
+
+      scene = canonical_scene(law_iso_viscous, 256)
+      scene%film%rupture = rupture_solved
+      scene%film%initial_film = 0.0_dp
+      scene%excitation%steady_force = 199.2_dp
+      scene%excitation%gravity = 9.80665_dp
+      do i = 1, size(motions, 2)
+         scene%contact%stiffness = motions(1, i)
+         scene%lubricant%viscosity = motions(2, i)
+         scene%kinematics%entrainment_speed = motions(3, i)
+         scene%excitation%force_amplitude = motions(4, i)
+         scene%excitation%frequency = motions(5, i)
+         problem = problem_of(scene)
+         call solve_window(problem, start_of(problem), accuracy, 64, 4, 1, states, z, ending, record)
+         call checks%check(ending%status == status_complete, 'kept load: solved')
+         if (ending%status /= status_complete) cycle
+         call checks%check_close(record%lowest(seen_films(1))%value/motions(6, i), 1.0_dp, agreement, 'kept load: thinnest film')
+         call checks%check_close(record%highest(seen_films(1))%value/motions(7, i), 1.0_dp, agreement, 'kept load: thickest film')
+      end do
+   end subroutine test_kept_load
 
    !> At rest films and springs fill the backlash, and the start stands still.
    subroutine test_rest(checks)

@@ -29,6 +29,7 @@ contains
       call test_loads(checks)
       call test_slopes(checks)
       call test_pull(checks)
+      call test_short_films(checks)
    end subroutine run_published_iso_viscous_tests
 
    !> Load as in (35), l eta0 R/h (2.8 u - (3 pi/sqrt 2) w sqrt(R/h)), and as in (24) with x_e.
@@ -109,6 +110,23 @@ contains
       call solved_load(8.9e-7_dp, 0.05_dp, load, slope_h, slope_w)
       call checks%check(load > 0.0_dp, 'with x_e solved the film does not pull here')
    end subroutine test_pull
+
+   !> A film that separates fast ruptures just behind its inlet: (24) over (23) at squeeze groups A, from (16) and (18) in 60 digits.
+   subroutine test_short_films(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: groups(4) = [30.0_dp, 1.0e3_dp, 1.0e5_dp, 1.0e7_dp]
+      real(dp), parameter :: shares(4) = [0.28678644105537651282_dp, 0.2857152532100863663_dp, 0.2857142858110355253_dp, &
+                                          0.28571428571429538927_dp]
+      real(dp) :: load, still, slope_h, slope_w
+      integer :: i
+
+      call solved_load(films(3), 0.0_dp, still, slope_h, slope_w)
+      do i = 1, size(groups)
+         call solved_load(films(3), groups(i)*speed*sqrt(2.0_dp*films(3)/radius)/4.0_dp, load, slope_h, slope_w)
+         call checks%check_close(load/still, shares(i), 16.0_dp*epsilon(1.0_dp), '(24) on fast separation')
+      end do
+   end subroutine test_short_films
 
    !> (35) with its coefficients.
    subroutine half_pi_load(film, velocity, load, load_by_film, load_by_velocity)
