@@ -5,7 +5,6 @@ module handed_motions
    use errors, only: error_t
    use grid_blocks, only: neighbours_of
    use kinds, only: dp, int64
-   use known_motions, only: are_near
    use motion_start, only: motion_start_t, motion_starts, one_start_reason, several_starts
    use periodic_orbit, only: periodic_orbit_t
    use problem, only: problem_t
@@ -16,7 +15,7 @@ module handed_motions
    use scene_group, only: scene_group_t
    use scene_orbit, only: orbit_ahead
    use scene_types, only: scene_t, spectrum_choice_t
-   use settled_motion, only: near_states, settled_motion_t
+   use settled_motion, only: settled_motion_t
    use signals, only: must_stop
    use varied_keys, only: pair_position
    implicit none(type, external)
@@ -171,17 +170,14 @@ contains
 
    end subroutine find_other_motions
 
-   !> Where Newton's method finds a stable periodic motion next to the state of a trial, the trial starts on it.
+   !> Where a trial nears a stable periodic motion, it starts on that one.
    subroutine go_to_orbit(problem, trial)
       type(problem_t), intent(in) :: problem
       type(trial_t), intent(inout) :: trial
       type(periodic_orbit_t) :: orbit
 
       orbit = orbit_ahead(problem, motion_state_t(numbers=trial%state))
-      if (orbit%period == 0) return
-      ! Of other starts any stable motion is of use; of the motion from rest columns tell.
-      if (trial%is_own .and. .not. are_near(problem, near_states(problem), orbit%state, trial%state)) return
-      trial%state = orbit%state
+      if (orbit%period > 0) trial%state = orbit%state
    end subroutine go_to_orbit
 
    !> Starts of the next round. Of motions that are alike a scene is handed one in a round, and none any more if one did not settle.

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from campaign_runs import solve
+from gearbox_pairs import one_pair
 from outcomes import digest, summary_of
 from script_calls import call_script
 from waiting import let_work
@@ -187,14 +188,6 @@ def test_a_scene_that_fails_has_no_motions(run, folder: Path) -> None:
             np.testing.assert_array_equal(np.isnan(result[name]), failed, err_msg=name)
 
 
-def one_pair(text: str, place: int) -> str:
-    """The input of gearbox_map with one of its pairs alone and without its campaign."""
-    head, *pairs = text.split("&gear\n")
-    rest = pairs[-1]
-    pairs[-1] = rest[: rest.index("&shaft\n")]
-    return f"{head}&gear\n{pairs[place]}{rest[rest.index('&shaft') : rest.index('&campaign')]}"
-
-
 @pytest.fixture
 def gearbox(repository: Path, tmp_path: Path) -> str:
     """The text of gearbox_map, its table beside the scenes of the test."""
@@ -245,3 +238,18 @@ def test_the_louder_of_two_slow_motions_is_told(run, gearbox: str, tmp_path: Pat
     assert motions["orbit_period"][loudest] == 3.0
     # Either is of a window of whole periods of the motion; a row is solved to 1e-6 of the film.
     assert row["loudest_acceleration_rms"][0] == pytest.approx(motions["acceleration_rms"][loudest], rel=1e-4)
+
+
+@pytest.mark.long
+def test_a_row_tells_the_motion_that_rest_comes_to_late(run, gearbox: str, tmp_path: Path) -> None:
+    """The motion from rest needs 828 periods to its periodic motion, nearly twice as loud as its first 60 are."""
+    text = one_pair(gearbox, 1)
+    (tmp_path / "scene.nml").write_text(
+        f"{text}&campaign vary = 'oil.temperature_celsius', values(:, 1) = 120.0\n   record = {COLUMNS} /\n"
+    )
+    keys = ("shaft.speed_rpm=3000", "gear.tooth_stiffness=2e8")
+    row = package.read(solve(run, tmp_path, *(word for key in keys for word in ("--set", key))))
+    late = ("oil.temperature_celsius=120.0", "solver.periods=1000", "solver.starts=1")
+    told = told_alone(run, tmp_path, text, *keys, *late)
+    assert told["orbit_period"] == 1
+    assert row["loudest_acceleration_rms"][0] == pytest.approx(told["acceleration_rms"], rel=1e-4)
