@@ -97,7 +97,7 @@ NEAREST_TESTS = {
     "fsrc/campaign/threshold": ("thresholds", "threshold_scenes", "logs"),
     "fsrc/run/finer_windows": ("rows_and_summaries", "coarse_series"),
     "fsrc/campaign/run_campaign": ("logs", "campaigns", "carrying_on", "check_and_template", "commands"),
-    "fsrc/motion/nodal": ("resolved", "run_endings"),
+    "fsrc/motion/nodal": ("resolved",),
     "fsrc/run/scene_orbit": ("coexisting_motions", "coexisting_rows"),
     "fsrc/run/follow_starts": ("coexisting_motions",),
     "fsrc/campaign/handed_motions": ("coexisting_rows", "coexisting_motions"),

@@ -5,11 +5,12 @@ module test_nodal_orbit
    use checks, only: check_list_t
    use clock, only: wall_seconds
    use doubt, only: doubt_parting, doubt_sentence, doubt_t
-   use engine, only: ending_t
+   use engine, only: checkpoint_t, ending_t
    use errors, only: error_t
    use fine_window, only: window_t
    use kinds, only: dp
    use lyapunov, only: parting_t
+   use nodal_engine, only: solve_in_nodes
    use nodal_flank, only: nodal_contact_t
    use nodal_orbit, only: find_nodal_orbit, follow_nodal_neighbours, orbit_found, orbit_none_near, orbit_out_of_time, &
                           orbit_sentence
@@ -190,6 +191,11 @@ contains
       type(periodic_orbit_t) :: orbit
       type(parting_t) :: parting
       type(window_t) :: window
+      type(window_keeper_t) :: keeper
+      type(window_record_t) :: record
+      type(counting_watcher_t) :: watcher
+      type(checkpoint_t) :: checkpoint
+      type(error_t), allocatable :: error
       integer :: outcome
 
       scene = gear_scene(viscosity_constant, 1)
@@ -210,6 +216,11 @@ contains
       window%samples_per_period = 16
       call solve_finer(scene, problem, choice, request_of(scene), 1, window, again)
       call checks%check(again%status == status_time_limit .and. again%periods == 0, 'nor is it solved again')
+      scene%solver%periods = 2
+      scene%solver%time_limit = 0.0_dp
+      keeper%numbers = state_size(problem)
+      call solve_in_nodes(problem, choice, request_of(scene), keeper, watcher, checkpoint, again, record, error)
+      call checks%check(again%status == status_time_limit .and. again%periods == 1, 'nor goes another solution on')
    end subroutine test_out_of_time
 
 end module test_nodal_orbit

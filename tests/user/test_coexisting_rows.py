@@ -242,7 +242,7 @@ def test_the_louder_of_two_slow_motions_is_told(run, gearbox: str, tmp_path: Pat
 
 @pytest.mark.long
 def test_a_row_tells_the_motion_that_rest_comes_to_late(run, gearbox: str, tmp_path: Path) -> None:
-    """The motion from rest needs 828 periods to its periodic motion, nearly twice as loud as its first 60 are."""
+    """The motion from rest repeats after 828 periods, nearly twice as loud as after 60."""
     text = one_pair(gearbox, 1)
     (tmp_path / "scene.nml").write_text(
         f"{text}&campaign vary = 'oil.temperature_celsius', values(:, 1) = 120.0\n   record = {COLUMNS} /\n"
