@@ -10,9 +10,9 @@
 !>
 !> for the coast film with the signs of Z and V turned (module elastic_trial). The film law at each node is solved for the loads by
 !> Newton's method with its slopes (module elastic_equations): as H_i' = w(H_i, W_i) where its load tells its velocity, else as
-!> W(H_i, H_i') = W_i. The loads count from those of the springs at the start, so that kappa W_i - D_1 keeps its digits. Nothing here grows with the stiffness: at kappa = 0 these are the equations of module collocation_step. A
-!> state of a film is taken out of these equations contact by contact (module inner_step), and brought after once the loads are
-!> corrected.
+!> W(H_i, H_i') = W_i. Loads that do not fall to nothing count from those of the springs at the start, so that kappa W_i - D_1 keeps
+!> its digits. Nothing here grows with the stiffness: at kappa = 0 these are the equations of module collocation_step. A state of a
+!> film is taken out of these equations contact by contact (module inner_step), and brought after once the loads are corrected.
 !>
 !> The error is that of rigid teeth, of the polynomial of the acceleration (module collocation_basis); a load that is off moves its
 !> film by kappa as well, and so counts the first coefficient of its polynomial that is left out.
@@ -166,15 +166,17 @@ contains
       type(lane_inner_t), intent(in) :: inner
       type(trial_t), intent(inout) :: trial
       real(dp) :: base
+      logical :: from_start
       integer :: flank
 
+      from_start = block%compliance(lane) > 0.0_dp .and. .not. carries_positive_loads(contact)
       base = 0.0_dp
       do flank = 1, trial%flanks
-         if (block%compliance(lane) > 0.0_dp) base = start_load(lane, block, contact, inner, flank)
+         trial%counted(flank) = merge(0.0_dp, block%compression(lane, flank, 0), from_start)
+         if (from_start) base = start_load(lane, block, contact, inner, flank)
          if (can_extrapolate(lane, block)) then
             call carry_on(block%load_polynomial(lane, :, flank), block%step(lane)/block%last_step(lane), trial%gain(:, flank))
-            if (block%compliance(lane) > 0.0_dp) &
-               trial%gain(:, flank) = trial%gain(:, flank) - sum(block%load_polynomial(lane, :, flank))
+            if (from_start) trial%gain(:, flank) = trial%gain(:, flank) - sum(block%load_polynomial(lane, :, flank))
             trial%load(:, flank) = base + trial%gain(:, flank)
          else
             trial%load(:, flank) = start_load(lane, block, contact, inner, flank)
@@ -183,10 +185,8 @@ contains
          ! Between nodes a polynomial may fall below what a film that never pulls can carry.
          if (.not. carries_positive_loads(contact)) cycle
          if (minval(trial%load(:, flank)) > 0.0_dp) cycle
-         where (.not. trial%load(:, flank) > 0.0_dp)
-            trial%load(:, flank) = start_load(lane, block, contact, inner, flank)
-            trial%gain(:, flank) = trial%load(:, flank) - base
-         end where
+         where (.not. trial%load(:, flank) > 0.0_dp) trial%load(:, flank) = start_load(lane, block, contact, inner, flank)
+         trial%gain(:, flank) = trial%load(:, flank)
       end do
    end subroutine first_loads
 
@@ -381,15 +381,15 @@ contains
       block%load_polynomial(lane, :, :trial%flanks) = polynomial(:stages, 1:trial%flanks)
       block%last_step(lane) = block%step(lane)
       block%damping_rate(lane) = 0.0_dp
-      call series_of_step(lane, trial%flanks, block)
+      call series_of_step(lane, trial, block)
       if (bends) call add_width(lane, trial, block)
       if (inner%count > 0) call series_of_states(block%step(lane), trial%flanks, states%films, inner)
    end subroutine judge
 
    !> Power series of film, velocity and compressions about the start of the step.
-   pure subroutine series_of_step(lane, flanks, block)
+   pure subroutine series_of_step(lane, trial, block)
       integer, intent(in) :: lane
-      integer, intent(in) :: flanks
+      type(trial_t), intent(in) :: trial
       type(lane_block_t), intent(inout) :: block
       real(dp) :: shifted(0:stages), scale
       integer :: flank, j
@@ -397,9 +397,9 @@ contains
       call series_of_motion(lane, block)
       block%compression(lane, :, 1:) = 0.0_dp
       associate (s => block%step(lane))
-         do flank = 1, flanks
+         do flank = 1, trial%flanks
             shifted = block%compliance(lane)*powers_of_place(block%load_polynomial(lane, :, flank))
-            call meet_start(0.0_dp, shifted)
+            call meet_start(trial%counted(flank), shifted)
             scale = 1.0_dp
             do j = 1, stages
                scale = scale/s

@@ -13,9 +13,11 @@ module elastic_trial
       integer :: flanks = 1
       !> Loads W, films H, film velocities H', and the films at the start
       real(dp) :: load(rows, 2) = 0.0_dp, film(rows, 2) = 0.0_dp, velocity(rows, 2) = 0.0_dp, start(2) = 0.0_dp
-      !> Loads less those of the springs at the start, with digits of their own: a soft tooth is compressed by millions of its film,
-      !> which the difference of two compressions would leave without digits. Without springs the loads
-      real(dp) :: gain(rows, 2) = 0.0_dp
+      !> Loads as they count, with digits of their own, and the compressions that they count with. Of films that may pull or keep a
+      !> part of their load they are less those of the springs at the start, and the compressions none: a soft tooth is compressed by
+      !> millions of its film, which the difference of two compressions would leave without digits. Of others they are the loads,
+      !> which may fall to nothing
+      real(dp) :: gain(rows, 2) = 0.0_dp, counted(2) = 0.0_dp
       !> Compression of flanks that bend by their width, at the start too; how the compression follows the film, as a share of the
       !> gear's way, and what a load moves its film by
       real(dp) :: width(rows, 2) = 0.0_dp, start_width(2) = 0.0_dp, follows(rows, 2) = 0.0_dp, compliance(rows, 2) = 0.0_dp
@@ -50,7 +52,7 @@ contains
          trial%lienard = block%lienard(lane, 0) + s*once
          trial%way = s*(node_rows*block%lienard(lane, 0) + s*twice)
          do flank = 1, trial%flanks
-            yielded(:, flank) = kappa*trial%gain(:, flank)
+            yielded(:, flank) = kappa*trial%gain(:, flank) - trial%counted(flank)
             gap(:, flank) = trial%start(flank) + (sign_of(flank)*trial%way + yielded(:, flank))
          end do
          if (contact%film%bends) then

@@ -42,7 +42,7 @@ module lane_block
       real(dp) :: films(lanes, 0:order, 2)
       !> and compliance, scaled; series of the compressions d_1 and d_2
       real(dp) :: compliance(lanes), compression(lanes, 2, 0:order)
-      !> and of collocation, polynomials of both loads in the last step, less the loads of the springs where it began
+      !> and of collocation, polynomials of both loads in the last step, as they count there (module elastic_trial)
       real(dp) :: load_polynomial(lanes, stages, 2)
       !> and the compressions that the step leads to
       real(dp) :: next_compression(lanes, 2)

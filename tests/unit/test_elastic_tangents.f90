@@ -30,6 +30,7 @@ contains
       call against_neighbours(checks, 'two flanks', on_two_flanks())
       call against_neighbours(checks, 'flanks that bend', problem_of(scene_g(viscosity_barus)))
       call test_repeating(checks)
+      call test_returning(checks)
       call test_who(checks)
    end subroutine run_elastic_tangents_tests
 
@@ -124,6 +125,41 @@ contains
       call follow_neighbours([problem], [endings(1)%motion_state_t], partings)
       call checks%check_close(partings(1)%exponent, log(abs(orbit%multipliers(1))), 1.0e-3_dp, 'its exponent')
    end subroutine test_repeating
+
+   !> A tooth at rest returns to the last bit, so that nothing of it is left to be computed but its displacements: over several
+   !> periods they are what as many single ones make of them.
+   subroutine test_returning(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      integer, parameter :: periods = 4
+      type(scene_t) :: scene
+      type(problem_t) :: problem
+      type(motion_state_t) :: start
+      type(ending_t) :: ending(1)
+      real(dp), allocatable :: together(:, :, :), one_by_one(:, :, :)
+      real(dp) :: none(0, 2, 1)
+      integer :: i
+
+      scene = canonical_scene(law_iso_viscous, 256)
+      scene%contact%stiffness = 1.0e7_dp
+      scene%film%initial_film = 0.0_dp
+      scene%excitation%force_amplitude = 0.0_dp
+      problem = problem_of(scene)
+      start = start_of(problem)
+      start%implicit = .true.
+      call solve_motions([problem], [start], request_t(accuracy=1.0e-8_dp, periods=20), none, ending)
+      start = motion_state_t(numbers=ending(1)%numbers, implicit=.true.)
+      call solve_motions([problem], [start], request_t(accuracy=1.0e-8_dp, periods=1), none, ending)
+      call checks%check(all(abs(ending(1)%numbers - start%numbers) <= 0.0_dp), 'returns to the last bit')
+      allocate (together(3, 1, 1), source=0.0_dp)
+      together(:, 1, 1) = 1.0e-4_dp*sizes_of_state(problem, start%numbers, counts_as(problem, start%numbers))
+      allocate (one_by_one, source=together)
+      call solve_motions([problem], [start], request_t(accuracy=1.0e-8_dp, periods=periods), none, ending, displacements=together)
+      do i = 1, periods
+         call solve_motions([problem], [start], request_t(accuracy=1.0e-8_dp, periods=1), none, ending, displacements=one_by_one)
+      end do
+      call checks%check(maxval(abs(together - one_by_one)) <= 1.0e-12_dp*maxval(abs(one_by_one)), &
+                        'displacements of a motion that returns to the last bit')
+   end subroutine test_returning
 
    !> Multipliers of a motion that repeats after a period, by central differences.
    function multipliers_of_differences(problem, state) result(multipliers)
