@@ -250,6 +250,7 @@ def test_classify_holds_lines_against_the_orders_of_the_force(run, scene_text, t
     assert judged["harmonic_distortion"] == pytest.approx(summary["harmonic_distortion"], rel=1e-12)
 
 
+@pytest.mark.long
 def test_no_sample_lies_beyond_the_extremes_told(run, scene_text, tmp_path: Path) -> None:
     """Forces of many orders have many peaks nearly as high as the highest: none of them is passed over."""
     rng = np.random.default_rng(5)

@@ -161,6 +161,7 @@ def test_pairs_that_repeat_and_one_that_does_not_are_summed_on_one_axis(
     assert f"the bearings of the shaft feel, {table['film_force_text']}." in read.words
 
 
+@pytest.mark.long
 def test_a_pair_that_fails_leaves_no_sum(solve, tmp_path: Path) -> None:
     """No rigid piezo-viscous film carries a drag of 40 N m: no sum is told, and the table says why."""
     text = BOTH.replace("'iso-viscous'", "'piezo-viscous'").replace(

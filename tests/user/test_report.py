@@ -227,6 +227,7 @@ def test_figures_are_drawings_whose_parts_are_all_there(motion):
         assert 'role="img"' in svg and "viewBox" in svg
 
 
+@pytest.mark.long
 def test_same_results_give_the_same_page(motion):
     first = report(motion)
     other = motion.with_name("other.html")

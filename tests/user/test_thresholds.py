@@ -322,6 +322,7 @@ def cut_between(rattle: Path, folder: Path) -> int:
     raise AssertionError("the run could not be cut between two traces")
 
 
+@pytest.mark.long
 def test_carried_on_to_the_same_bytes(rattle, run, scene_text, tmp_path: Path) -> None:
     """After a signal, and a kill that leaves the state as it was; with other threads."""
     # Of the class: no crossing is verified as close to its change as asked for.
@@ -346,6 +347,7 @@ def test_carried_on_to_the_same_bytes(rattle, run, scene_text, tmp_path: Path) -
     assert not state_path(tmp_path).exists()
 
 
+@pytest.mark.long
 def test_cut_in_its_first_lines_it_goes_on_where_it_was(rattle, run, scene_text, tmp_path: Path) -> None:
     """Cut again and again before its first line is done: nothing is counted twice, no byte differs."""
     (tmp_path / "scene.nml").write_text(threshold_text(scene_text, threshold={"count": "513"}))
