@@ -242,7 +242,7 @@ def test_the_louder_of_two_slow_motions_is_told(run, gearbox: str, tmp_path: Pat
 
 @pytest.mark.long
 def test_a_row_tells_the_motion_that_rest_comes_to_late(run, gearbox: str, tmp_path: Path) -> None:
-    """Soft teeth: the motion from rest swings by 239 m/s2 after 60 periods, and repeats with 184 after 1351."""
+    """Soft teeth: the motion from rest has 239 m/s2 after 60 periods, and repeats with 184 after 1351."""
     text = one_pair(gearbox, 1)
     (tmp_path / "scene.nml").write_text(
         f"{text}&campaign vary = 'oil.temperature_celsius', values(:, 1) = 15.0\n   record = {COLUMNS} /\n"
