@@ -325,7 +325,7 @@ contains
       never_pulls = film%exact .or. film%pressure_thickens
    end function never_pulls
 
-   !> Load that a film keeps however fast it separates [N]; none of a law that may pull, which has no such limit.
+   !> Load that a film keeps however fast it separates [N]; 0 of laws that keep none, or may pull.
    elemental real(dp) function kept_load(film, thickness)
       type(film_t), intent(in) :: film
       !> Film thickness h > 0 [m]
@@ -335,7 +335,7 @@ contains
       case (kernel_solved_fast, kernel_solved_successive)
          kept_load = share_kept*film%rolling/thickness
       case default
-         kept_load = merge(0.0_dp, -huge(1.0_dp), never_pulls(film))
+         kept_load = 0.0_dp
       end select
    end function kept_load
 
