@@ -40,7 +40,7 @@ KNOW_FLANKS = {
     ),
     "implicit steps: residuals with films of both flanks, and with their springs": (
         "motion/collocation_newton",
-        "motion/elastic_equations",
+        "motion/elastic_newton",
         "motion/elastic_step",
         "motion/elastic_tangents",
         "motion/elastic_trial",

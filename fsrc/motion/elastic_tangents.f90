@@ -5,7 +5,7 @@
 !> solution of -R_W dW = R_y dy: the matrix is that of Newton's method where this has ended, and every displacement is one more
 !> right-hand side. Gear, springs and films at the end follow from dW and dy as they follow from W and y.
 module elastic_tangents
-   use elastic_equations, only: imbalances, newton_matrix, slopes_t
+   use elastic_newton, only: imbalances, newton_matrix, slopes_t
    use elastic_trial, only: sign_of, trial_t
    use flank_contact, only: flank_contact_t, width_compression
    use kinds, only: dp

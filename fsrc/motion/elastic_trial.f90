@@ -1,9 +1,13 @@
-!> A try of an implicit step of contacts with numbers of their own (module elastic_step): the gear, the springs and the films that
-!> follow from the loads at the nodes.
+!> A try of an implicit step of contacts with numbers of their own (module elastic_step): the films where it begins, the loads that
+!> Newton's method sets out from, and gear, springs and films that follow from the loads at the nodes.
 module elastic_trial
-   use flank_contact, only: films_over_gaps, flank_contact_t
+   use collocation_basis, only: can_extrapolate, carry_on
+   use film_state, only: load_t
+   use flank_contact, only: carries_positive_loads, film_over_gap, films_over_gaps, flank_contact_t, load_of_contact, &
+      width_compression
    use kinds, only: dp
    use lane_block, only: lane_block_t
+   use lane_inner, only: lane_inner_t
    use radau_nodes, only: node_rows, once_rows, rows, slope_rows, twice_rows, weigh
    implicit none(type, external)
    private
@@ -28,9 +32,88 @@ module elastic_trial
    !> Signs of the gear's motion in the films
    real(dp), parameter, public :: sign_of(2) = [1.0_dp, -1.0_dp]
 
-   public :: follow_loads
+   public :: start_films, first_loads, follow_loads
 
 contains
+
+   !> Films where the step begins.
+   pure subroutine start_films(contact, lane, block, trial)
+      type(flank_contact_t), intent(in) :: contact
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      type(trial_t), intent(inout) :: trial
+      real(dp) :: scale, load, by_film, by_load
+      integer :: flank
+
+      trial%compliance = block%compliance(lane)
+      trial%start(1) = block%film(lane, 0)
+      if (trial%flanks == 2) trial%start(2) = block%backlash(lane) - block%film(lane, 0) + sum(block%compression(lane, :, 0))
+      if (.not. contact%film%bends) return
+      scale = block%film_scale(lane)
+      do flank = 1, trial%flanks
+         load = block%compression(lane, flank, 0)/block%compliance(lane)*block%force_scale(lane)
+         if (flank == 2) then
+            trial%start(2) = trial%start(2) + trial%start_width(1)
+            trial%start(2) = film_over_gap(contact%film, trial%start(2)*scale, load, trial%start(2)*scale)/scale
+         end if
+         call width_compression(contact%film, trial%start(flank)*scale, load, trial%start_width(flank), by_film, by_load)
+         trial%start_width(flank) = trial%start_width(flank)/scale
+      end do
+   end subroutine start_films
+
+   !> First iterate: the polynomials of the step before, or the loads at its end where they would be carried too far.
+   pure subroutine first_loads(lane, block, contact, inner, trial)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      type(flank_contact_t), intent(in) :: contact
+      type(lane_inner_t), intent(in) :: inner
+      type(trial_t), intent(inout) :: trial
+      real(dp) :: base
+      logical :: from_start
+      integer :: flank
+
+      from_start = block%compliance(lane) > 0.0_dp .and. .not. carries_positive_loads(contact)
+      base = 0.0_dp
+      do flank = 1, trial%flanks
+         trial%counted(flank) = merge(0.0_dp, block%compression(lane, flank, 0), from_start)
+         if (from_start) base = start_load(lane, block, contact, inner, flank)
+         if (can_extrapolate(lane, block)) then
+            call carry_on(block%load_polynomial(lane, :, flank), block%step(lane)/block%last_step(lane), trial%gain(:, flank))
+            if (from_start) trial%gain(:, flank) = trial%gain(:, flank) - sum(block%load_polynomial(lane, :, flank))
+            trial%load(:, flank) = base + trial%gain(:, flank)
+         else
+            trial%load(:, flank) = start_load(lane, block, contact, inner, flank)
+            trial%gain(:, flank) = trial%load(:, flank) - base
+         end if
+         ! Between nodes a polynomial may fall below what a film that never pulls can carry.
+         if (.not. carries_positive_loads(contact)) cycle
+         if (minval(trial%load(:, flank)) > 0.0_dp) cycle
+         where (.not. trial%load(:, flank) > 0.0_dp) trial%load(:, flank) = start_load(lane, block, contact, inner, flank)
+         trial%gain(:, flank) = trial%load(:, flank)
+      end do
+   end subroutine first_loads
+
+   !> Load at the start of the step: that of the spring, or of a rigid film.
+   pure real(dp) function start_load(lane, block, contact, inner, flank) result(load)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      type(flank_contact_t), intent(in) :: contact
+      type(lane_inner_t), intent(in) :: inner
+      integer, intent(in) :: flank
+      type(load_t) :: carried
+      real(dp) :: film
+
+      if (block%compliance(lane) > 0.0_dp) then
+         load = block%compression(lane, flank, 0)/block%compliance(lane)
+      else
+         film = block%film(lane, 0)
+         if (flank == 2) film = block%backlash(lane) - film
+         carried = load_of_contact(contact, film*block%film_scale(lane), &
+                                   sign_of(flank)*block%lienard(lane, 0)*block%velocity_scale(lane), &
+                                   inner%now(inner%count*(flank - 1) + 1:inner%count*flank))
+         load = carried%load/block%force_scale(lane)
+      end if
+   end function start_load
 
    !> Gear and films that follow from the loads.
    pure subroutine follow_loads(contact, lane, force, block, trial)
