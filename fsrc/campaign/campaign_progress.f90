@@ -7,6 +7,7 @@ module campaign_progress
    use kinds, only: dp, int64
    use log_file, only: log_t
    use ranks, only: sum_over_ranks
+   use row_counts, only: count_done, count_failed, count_tested, count_uncertain, counts_of_rows
    use summary_file, only: summary_t
    use text, only: integer_text, short_text
    implicit none(type, external)
@@ -17,15 +18,11 @@ module campaign_progress
 
    !> Progress so far. Threads add to the counts; each of them tells.
    type, public :: campaign_progress_t
-      integer(int64) :: scenes = 0_int64, done_before = 0_int64, done = 0_int64, failed = 0_int64
+      integer(int64) :: scenes = 0_int64, done_before = 0_int64
+      !> Of the scenes that this run has solved, by module row_counts
+      integer(int64) :: counts(counts_of_rows) = 0_int64
       !> Scenes that other ranks have solved
       integer(int64), private :: done_elsewhere = 0_int64
-      !> Scenes whose motion leaves what the model can mean, and whose harmonics no samples follow and no integrals could be had for
-      integer(int64) :: beyond_model = 0_int64, undersampled = 0_int64
-      !> Scenes whose class was put to the test, and those of them whose class does not stand
-      integer(int64) :: tested = 0_int64, uncertain = 0_int64, irregular_so_far = 0_int64
-      !> Scenes whose motions are known, and those of them that have several
-      integer(int64) :: followed = 0_int64, several = 0_int64
       logical :: quiet = .false.
       character(:), allocatable :: path
       logical, private :: on_terminal = .false.
@@ -63,41 +60,16 @@ contains
    end subroutine start
 
    !> Count solved scenes.
-   subroutine add(self, done, failed, beyond_model, undersampled, tested, uncertain, irregular_so_far, followed, several)
+   subroutine add(self, counts)
       class(campaign_progress_t), intent(inout) :: self
-      !> Scenes solved, and those of them that failed
-      integer(int64), intent(in) :: done
-      integer(int64), intent(in) :: failed
-      !> Scenes that leave what the model can mean, and scenes whose harmonics are not resolved
-      integer(int64), intent(in) :: beyond_model
-      integer(int64), intent(in) :: undersampled
-      !> Scenes whose class was put to the test, and those of them whose class does not stand
-      integer(int64), intent(in) :: tested
-      integer(int64), intent(in) :: uncertain
-      !> and of those, or of all where none are, how many are irregular so far
-      integer(int64), intent(in) :: irregular_so_far
-      !> Scenes whose motions are known, and those of them that have several
-      integer(int64), intent(in) :: followed
-      integer(int64), intent(in) :: several
+      !> Of their rows
+      integer(int64), intent(in) :: counts(counts_of_rows)
+      integer :: i
 
-      !$omp atomic
-      self%done = self%done + done
-      !$omp atomic
-      self%failed = self%failed + failed
-      !$omp atomic
-      self%beyond_model = self%beyond_model + beyond_model
-      !$omp atomic
-      self%undersampled = self%undersampled + undersampled
-      !$omp atomic
-      self%tested = self%tested + tested
-      !$omp atomic
-      self%uncertain = self%uncertain + uncertain
-      !$omp atomic
-      self%irregular_so_far = self%irregular_so_far + irregular_so_far
-      !$omp atomic
-      self%followed = self%followed + followed
-      !$omp atomic
-      self%several = self%several + several
+      do i = 1, counts_of_rows
+         !$omp atomic
+         self%counts(i) = self%counts(i) + counts(i)
+      end do
    end subroutine add
 
    !> Whether it is time to tell.
@@ -107,7 +79,7 @@ contains
 
       now = wall_seconds()
       !$omp critical (sentences)
-      is_due = self%done_before + self%done < self%scenes .and. &
+      is_due = self%done_before + self%counts(count_done) < self%scenes .and. &
                (now - self%written > file_interval .or. &
                 now - self%told >= merge(terminal_interval, line_interval, self%on_terminal))
       !$omp end critical (sentences)
@@ -124,7 +96,7 @@ contains
 
       now = wall_seconds()
       !$omp critical (sentences)
-      if (present(done)) self%done_elsewhere = max(0_int64, done - self%done_before - self%done)
+      if (present(done)) self%done_elsewhere = max(0_int64, done - self%done_before - self%counts(count_done))
       if (now - self%written > file_interval) call write_progress(self, now)
       if (now - self%told >= merge(terminal_interval, line_interval, self%on_terminal)) call tell_line(self, log, now)
       !$omp end critical (sentences)
@@ -149,16 +121,11 @@ contains
    !> Add up the counts of all ranks.
    subroutine add_up(self)
       class(campaign_progress_t), intent(inout) :: self
+      integer :: i
 
-      self%done = sum_over_ranks(self%done)
-      self%failed = sum_over_ranks(self%failed)
-      self%beyond_model = sum_over_ranks(self%beyond_model)
-      self%undersampled = sum_over_ranks(self%undersampled)
-      self%tested = sum_over_ranks(self%tested)
-      self%uncertain = sum_over_ranks(self%uncertain)
-      self%irregular_so_far = sum_over_ranks(self%irregular_so_far)
-      self%followed = sum_over_ranks(self%followed)
-      self%several = sum_over_ranks(self%several)
+      do i = 1, counts_of_rows
+         self%counts(i) = sum_over_ranks(self%counts(i))
+      end do
    end subroutine add_up
 
    !> The last word.
@@ -184,14 +151,14 @@ contains
       integer(int64) :: done
       real(dp) :: rate
 
-      done = self%done + self%done_elsewhere
+      done = self%counts(count_done) + self%done_elsewhere
       rate = real(done, dp)/max(now - self%started, 1.0e-9_dp)
       line = integer_text(self%done_before + done)//' of '//integer_text(self%scenes)//' scenes, '// &
              short_text(rate, 3)//' a second'
       if (done > 0 .and. self%done_before + done < self%scenes) line = line//', '// &
          short_text(real(self%scenes - self%done_before - done, dp)/rate, 2)//' s left'
-      line = line//', '//integer_text(self%failed)//' failed'
-      if (self%tested > 0) line = line//', '//integer_text(self%uncertain)//' not verified'
+      line = line//', '//integer_text(self%counts(count_failed))//' failed'
+      if (self%counts(count_tested) > 0) line = line//', '//integer_text(self%counts(count_uncertain))//' not verified'
    end function words
 
    !> File for watchers; where it cannot be written the campaign goes on.
@@ -203,10 +170,11 @@ contains
 
       self%written = now
       call summary%add('scenes', self%scenes)
-      call summary%add('scenes_done', self%done_before + self%done + self%done_elsewhere)
-      call summary%add('scenes_failed', self%failed)
+      call summary%add('scenes_done', self%done_before + self%counts(count_done) + self%done_elsewhere)
+      call summary%add('scenes_failed', self%counts(count_failed))
       call summary%add('seconds', now - self%started)
-      call summary%add('scenes_per_second', real(self%done + self%done_elsewhere, dp)/max(now - self%started, 1.0e-9_dp))
+      call summary%add('scenes_per_second', real(self%counts(count_done) + self%done_elsewhere, dp)/ &
+                       max(now - self%started, 1.0e-9_dp))
       call summary%write(self%path, ignored)
    end subroutine write_progress
 

@@ -1,6 +1,5 @@
 !> A campaign: chunks of scenes to threads and ranks, rows in the order of the scenes. table_task runs it.
 module run_campaign
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use campaign_file, only: campaign_file_t
    use campaign_progress, only: campaign_progress_t
    use clock, only: wall_seconds
@@ -14,8 +13,9 @@ module run_campaign
    use output_lock, only: expect_own_lock
    use output_place, only: result_path, stem, summary_path
    use prepared_campaign, only: campaign_t, prepare_campaign
-   use rattle_class, only: class_irregular_so_far
    use ranks, only: next_tickets, rank_count, this_rank
+   use row_counts, only: count_beyond_model, count_done, count_failed, count_followed, count_irregular, count_irregular_so_far, &
+      count_rows, count_several, count_tested, count_uncertain, count_undersampled
    use scene_summary, only: add_notes, add_results
    use scene_status, only: is_success, status_complete, status_interrupted, status_name, status_not_written
    use scene_types, only: scene_t
@@ -230,37 +230,11 @@ contains
          if (caught_signal() /= 0 .or. allocated(error)) return
          call results%write_chunks(chunks(first), rows, error)
          if (allocated(error)) return
-         call progress%add(last_row - first_row + 1_int64, &
-                           count(.not. is_success(nint(rows(status_column, :))), kind=int64), &
-                           flagged(campaign%layout%names == 'model_limit', rows, 1.0_dp), &
-                           flagged(campaign%layout%names == 'sampling_sufficient', -rows, 0.0_dp), &
-                           flagged(campaign%layout%names == 'verified', rows, 0.0_dp), &
-                           flagged(campaign%layout%names == 'verified', -rows, 0.0_dp), &
-                           flagged(campaign%layout%names == 'rattle_class', rows, real(class_irregular_so_far, dp)), &
-                           flagged(campaign%layout%names == 'motions', rows, 1.0_dp), &
-                           flagged(campaign%layout%names == 'motions', rows, 2.0_dp))
+         call progress%add(count_rows(campaign%layout%names, status_column, rows))
          scenes = scenes + last_row - first_row + 1_int64
          deallocate (rows)
       end do
    end subroutine solve_some
-
-   !> Rows in which a column is not below a limit, 0 where it is not recorded. What is unknown, NaN, counts as below.
-   pure integer(int64) function flagged(is_column, rows, limit)
-      !> Whether a column is the one
-      logical, intent(in) :: is_column(:)
-      !> One column of this array is the row of a scene
-      real(dp), intent(in) :: rows(:, :)
-      real(dp), intent(in) :: limit
-      integer :: column, row
-
-      flagged = 0_int64
-      column = findloc(is_column, .true., dim=1)
-      if (column == 0) return
-      do row = 1, size(rows, 2)
-         if (ieee_is_nan(rows(column, row))) cycle
-         if (rows(column, row) >= limit) flagged = flagged + 1_int64
-      end do
-   end function flagged
 
    !> Close the result, write the summary, and say what became of the campaign.
    subroutine close_files(self, error)
@@ -273,7 +247,7 @@ contains
 
       call self%results%close(finished, close_error)
       self%is_cut = .not. finished
-      self%has_failures = self%progress%failed > 0
+      self%has_failures = self%progress%counts(count_failed) > 0
       status = merge(status_complete, status_interrupted, finished)
       if (allocated(error) .or. allocated(close_error)) status = status_not_written
       call self%progress%finish(self%log)
@@ -293,19 +267,21 @@ contains
       call summary%add('status', status_name(status))
       call add_notes(summary, task%scene, [task%scene%warnings, task%warnings])
       call add_results(summary, [word_t(result_path(task%scene))], status)
-      associate (progress => task%progress)
+      associate (progress => task%progress, counts => task%progress%counts)
          call summary%add('scenes', task%scenes)
-         call summary%add('scenes_done', progress%done_before + progress%done)
+         call summary%add('scenes_done', progress%done_before + counts(count_done))
          call summary%add('scenes_invalid', task%campaign%invalid)
-         call summary%add('scenes_failed_in_this_run', progress%failed)
-         call summary%add('scenes_beyond_model_in_this_run', progress%beyond_model)
-         call summary%add('scenes_undersampled_in_this_run', progress%undersampled)
+         call summary%add('scenes_failed_in_this_run', counts(count_failed))
+         call summary%add('scenes_beyond_model_in_this_run', counts(count_beyond_model))
+         call summary%add('scenes_undersampled_in_this_run', counts(count_undersampled))
          if (any(task%campaign%layout%names == 'verified')) &
-            call summary%add('scenes_not_verified_in_this_run', progress%uncertain)
-         if (any(task%campaign%layout%names == 'rattle_class')) &
-            call summary%add('scenes_irregular_so_far_in_this_run', progress%irregular_so_far)
+            call summary%add('scenes_not_verified_in_this_run', counts(count_uncertain))
+         if (any(task%campaign%layout%names == 'rattle_class')) then
+            call summary%add('scenes_irregular_in_this_run', counts(count_irregular))
+            call summary%add('scenes_irregular_so_far_in_this_run', counts(count_irregular_so_far))
+         end if
          if (any(task%campaign%layout%names == 'motions')) &
-            call summary%add('scenes_with_several_motions_in_this_run', progress%several)
+            call summary%add('scenes_with_several_motions_in_this_run', counts(count_several))
       end associate
       call summary%add('wall_seconds', wall_seconds() - task%started)
    end subroutine add_counts
@@ -337,21 +313,28 @@ contains
       type(campaign_t), intent(in) :: campaign
       type(campaign_progress_t), intent(in) :: progress
 
-      if (progress%beyond_model > 0) call log%line('  warning: '//counted(progress%beyond_model, 'scene')//' beyond what the '// &
-         'model can mean: films beyond a tenth of the radius or below 1 nm (column model_limit)')
-      if (progress%undersampled > 0) call log%line('  warning: the lines of '//counted(progress%undersampled, 'scene')// &
-         ' are not resolved (column sampling_sufficient); raise campaign.samples_per_period')
-      if (progress%tested > 0) call log%line('  '//integer_text(progress%uncertain)//' of '//integer_text(progress%tested)// &
-         ' scenes not verified: solved again, tighter, the class is another or close to a limit (column verified)')
-      if (progress%irregular_so_far > 0) call log%line('  '//counted(progress%irregular_so_far, 'scene')// &
-         ' irregular so far: without repetition, and no neighbouring motion parts for good (rattle_class)')
-      call log%line('  '//result_path(scene))
-      call log%line('  '//summary_path(scene))
-      if (progress%followed > 0 .and. scene%solver%starts > 1) &
-         call log%line('  '//integer_text(progress%several)//' of '//counted(progress%followed, 'scene')// &
-                       ' have several motions; '//integer_text(scene%solver%starts)//' starts'// &
-                       trim(merge(' and neighbours', '               ', scenes_of_block(scene, campaign%plan) > 1))// &
-                       ' are no proof of others'' absence')
+      associate (counts => progress%counts)
+         if (counts(count_beyond_model) > 0) call log%line('  warning: '//counted(counts(count_beyond_model), 'scene')// &
+            ' beyond what the model can mean: films beyond a tenth of the radius or below 1 nm (column model_limit)')
+         if (counts(count_undersampled) > 0) call log%line('  warning: the harmonics of '// &
+            counted(counts(count_undersampled), 'scene')//' are not resolved (column sampling_sufficient); '// &
+            'raise campaign.samples_per_period')
+         if (counts(count_tested) > 0) call log%line('  '//integer_text(counts(count_uncertain))//' of '// &
+            integer_text(counts(count_tested))//' scenes not verified: solved again, tighter, the class is another or close to '// &
+            'a limit (column verified)')
+         if (counts(count_irregular) > 0) call log%line('  '//counted(counts(count_irregular), 'scene')//' irregular: '// &
+            'other windows than that of '//counted(scene%spectrum%periods, 'period')//' have other numbers; '// &
+            'more of spectrum.periods steadies them (rattle_class)')
+         if (counts(count_irregular_so_far) > 0) call log%line('  '//counted(counts(count_irregular_so_far), 'scene')// &
+            ' irregular so far: without repetition, and no neighbouring motion parts for good (rattle_class)')
+         call log%line('  '//result_path(scene))
+         call log%line('  '//summary_path(scene))
+         if (counts(count_followed) > 0 .and. scene%solver%starts > 1) &
+            call log%line('  '//integer_text(counts(count_several))//' of '//counted(counts(count_followed), 'scene')// &
+                          ' have several motions; '//integer_text(scene%solver%starts)//' starts'// &
+                          trim(merge(' and neighbours', '               ', scenes_of_block(scene, campaign%plan) > 1))// &
+                          ' are no proof of others'' absence')
+      end associate
    end subroutine report_ending
 
    !> Scenes in chunks that are done.

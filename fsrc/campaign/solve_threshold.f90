@@ -8,6 +8,7 @@ module solve_threshold
    use prepared_threshold, only: points_plan, prepared_threshold_t
    use quantities, only: quantity_code, quantity_table, verification_of
    use ranks, only: add_over_ranks, next_tickets, rank_count, renew_tickets, sum_over_ranks, this_rank, wait_for_ranks
+   use row_counts, only: count_rows
    use sampling, only: sample_plan_t
    use scene_status, only: is_success
    use scene_types, only: scene_t
@@ -156,8 +157,7 @@ contains
          end if
          answers(is_solved, first:last) = 1.0_dp
          !$omp end critical (threshold_answers)
-         call progress%add(last - first + 1_int64, count(.not. is_success(nint(rows(status, :))), kind=int64), &
-                           0_int64, 0_int64, 0_int64, 0_int64, 0_int64, 0_int64, 0_int64)
+         call progress%add(count_rows([character(1) ::], status, rows))
          deallocate (rows)
          if (this_rank() == 0) then
             if (omp_get_thread_num() == 0) call keep_up(scene, threshold, wanted, testing, answers, progress, log, outcome)

@@ -24,7 +24,7 @@ module verify_scene
    use vibration_severity, only: severity_of_record, vibration_severity_t
    use window_class, only: classify_window
    use window_extremes, only: extremes_of_record, window_extremes_t
-   use window_impacts, only: agreement_of, impacts_of_record, window_impacts_t
+   use window_impacts, only: agreement_of, impact_agreement_t, impacts_of_record, window_impacts_t
    implicit none(type, external)
    private
 
@@ -82,6 +82,8 @@ contains
       orbit = orbits(1)
       ! Newmark's method may be off by more than motions of a scene differ.
       if (scene%solver%method == method_taylor) orbit = orbit_of(resolved%problem, own, orbits(1))
+      ! A window that is shorter than the motion does not have all of its impacts.
+      if (orbit%period > window%periods) verification%impacts = impact_agreement_t()
       call tighten(scene%solver%method, scene%solver%accuracy, accuracy, implicit)
       verification%severity_error = severity_error(severity, severity_of_record(tight%records(1), resolved%problem%frequency), &
                                                     accuracy)

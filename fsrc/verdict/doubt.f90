@@ -93,8 +93,9 @@ contains
          case (doubt_impacts)
             sentence = 'The window holds too few impacts to tell an irregular motion; more of spectrum.periods would.'
          case (doubt_return)
-            sentence = 'The window of one period begins with a film of '//short_text(numbers(1), 3)//' m and ends with '// &
-                       short_text(numbers(2), 3)//' m: the motion does not repeat after it. '// &
+            sentence = 'Solved again, the window of one period begins with a film of '//short_text(numbers(1), 3)// &
+                       ' m and ends with '//short_text(numbers(2), 3)// &
+                       ' m: that solution does not repeat after it, or not yet. '// &
                        'More of spectrum.periods would tell more.'
          case (doubt_class_behind)
             sentence = 'The class is that of this window: '//counted(counts(2), 'window')//' later the motion is '// &

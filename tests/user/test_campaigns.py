@@ -202,10 +202,12 @@ def test_a_window_of_one_of_two_periods_verifies_nothing(run, scene_text, tmp_pa
     assert run("single.nml", cwd=tmp_path).returncode == 0
     told = summary_of(tmp_path / "results" / "single.summary.nml")
     assert told["orbit_period"] == 2 and told["verification"] == "uncertain"
-    assert "The window of one period begins with a film of" in told["verification_text"]
+    assert not told["verdict_verified"] and not told["impacts_verified"]  # nor all impacts
+    assert "Solved again, the window of one period begins with a film of" in told["verification_text"]
     assert run("--overwrite", "--set", "spectrum.periods=8", "single.nml", cwd=tmp_path).returncode == 0
     longer = summary_of(tmp_path / "results" / "single.summary.nml")
     assert longer["rattle_class"] == "subharmonic" and longer["verification"] == "verified"
+    assert longer["verdict_verified"] and longer["impacts_verified"]
     varied = {"vary": "'load.force_amplitude'", "first": "203.1", "last": "205.7", "count": "2"}
     campaign = {"record": "'rattle_class', 'verified'", "samples_per_period": "1024", **varied}
     whole = {"scene": {"task": "'campaign'"}, **texts, "campaign": campaign}

@@ -455,6 +455,7 @@ RECORD = "'rattle_class', 'acceleration_maximum', 'verified', 'model_limit', 'sa
         ("doubtful", "400.0, 20.0", {}),
         ("far", "1e7, 20.0", {}),
         ("failing", "400.0, 20.0", {"film": {"law": "'piezo-viscous'", "model": "'reynolds'"}}),
+        ("irregular", "2000.0, 20.0", {}),
     ),
 )
 def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, changes):
@@ -468,12 +469,14 @@ def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, change
     doubts, tested = int((verified == 0.0).sum()), int(np.isfinite(verified).sum())
     beyond = int((rows["model_limit"] > 0.0).sum())
     coarse = int((rows["sampling_sufficient"] == 0.0).sum())
-    open_ended = int((rows["rattle_class"] == 6.0).sum())
+    irregular, open_ended = (int((rows["rattle_class"] == code).sum()) for code in (4.0, 6.0))
+    assert {"irregular": irregular, "far": beyond, "failing": failed, "doubtful": doubts}[name] > 0
     assert told["scenes"] == told["scenes_done"] == count
     assert told["scenes_failed_in_this_run"] == failed
     assert told["scenes_beyond_model_in_this_run"] == beyond
     assert told["scenes_undersampled_in_this_run"] == coarse
     assert told["scenes_not_verified_in_this_run"] == doubts
+    assert told["scenes_irregular_in_this_run"] == irregular
     assert told["scenes_irregular_so_far_in_this_run"] == open_ended
     law = LAWS[("reynolds", "piezo-viscous") if changes else ("published", "iso-viscous")]
     found = log_of(path)
@@ -492,6 +495,11 @@ def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, change
             else None,
             f"  {doubts} of {tested} scenes not verified: solved again, tighter, the class is another "
             "or close to a limit (column verified)",
+            f"  {counted(irregular, 'scene')} irregular: other windows than that of "
+            f"{counted(int(rows.input['spectrum']['periods']), 'period')} have other numbers; more of "
+            "spectrum.periods steadies them (rattle_class)"
+            if irregular
+            else None,
             f"  {counted(open_ended, 'scene')} irregular so far: without repetition, and no neighbouring "
             "motion parts for good (rattle_class)"
             if open_ended
