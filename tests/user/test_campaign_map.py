@@ -221,6 +221,7 @@ def test_nothing_done_is_nothing_to_draw(tmp_path):
     assert "holds no scene that is done; there is nothing to draw." in done.stderr
 
 
+@pytest.mark.long
 def test_an_axis_of_one_value_and_of_equal_numbers(tmp_path):
     path = grid(FORCES, Key(SPEED, 2.0, 2.0, 1)).write(tmp_path / "thin.rattle")
     done = draw(path, "--columns", "rattle_class,status,natural_frequency")

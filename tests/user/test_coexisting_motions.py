@@ -158,6 +158,7 @@ def test_one_motion_is_told_with_what_may_be_missed(run, scene_text, tmp_path: P
         assert told["loudest_acceleration_rms"] == told["acceleration_rms"]
 
 
+@pytest.mark.long
 def test_starts_end_early_on_a_known_irregular_motion(run, repository: Path, tmp_path: Path) -> None:
     """After 32 periods if all are on it; a motion beside it that repeats is told nevertheless."""
     for speed, motions in ((1200.0, 1), (2400.0, 2)):
@@ -243,6 +244,7 @@ def test_a_motion_far_from_where_slow_starts_end_is_told(run, repository: Path, 
     assert told["loudest_acceleration_rms"] == pytest.approx(settled["acceleration_rms"], rel=1e-3)
 
 
+@pytest.mark.long
 def test_irregular_starts_count_to_no_motion_beside(run, repository: Path, tmp_path: Path) -> None:
     """Newton's method leads from some irregular starts to a stable motion of 12.2 m/s2; none goes there."""
     keys = ("shaft.speed_rpm=3372", "oil.temperature_celsius=115", "gear.tooth_stiffness=1.38e7")

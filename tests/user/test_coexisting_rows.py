@@ -204,6 +204,7 @@ def told_alone(run, folder: Path, text: str, *keys: str) -> dict:
     return summary_of(folder / "results" / "alone.summary.nml")
 
 
+@pytest.mark.long
 def test_a_motion_that_settles_slowly_is_told_once(run, gearbox: str, tmp_path: Path) -> None:
     """After 60 periods the motion from rest still creeps along, far from where others have settled."""
     text = one_pair(gearbox, 3)

@@ -78,6 +78,7 @@ def test_a_sweep_begins_with_its_first_scene(canonical: Path) -> None:
     assert float(solved["acceleration_maximum"][0]) == pytest.approx(alone["acceleration_maximum"], rel=1e-5)
 
 
+@pytest.mark.long
 def test_the_ends_of_a_threshold_differ(canonical: Path) -> None:
     found = package.threshold(
         canonical, "load.force_amplitude", 5.0, 205.7, criterion="acceleration_maximum", level=100.0

@@ -345,6 +345,7 @@ def test_settings_of_the_user_count(idle, tmp_path):
     assert "scale(0.14" in after and "scale(0.14" not in before
 
 
+@pytest.mark.long
 def test_pairs_of_runs_stand_below_each_other_in_a_column(tmp_path):
     loose = write_motion(tmp_path / "loose.rattle", lines={1.0: 4.0}, tolerance=1e-7)
     tight = write_motion(tmp_path / "tight.rattle", lines={1.0: 5.0})

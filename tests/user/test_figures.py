@@ -54,6 +54,7 @@ def test_same_results_give_the_same_bytes(iso, piezo, tmp_path):
         assert first.read_bytes() == (outputs[1] / first.name).read_bytes(), first.name
 
 
+@pytest.mark.long
 def test_only_the_figures_asked_for_are_drawn(iso, piezo, tmp_path):
     output = tmp_path / "figures"
     done = call_script(
@@ -78,6 +79,7 @@ def test_runs_of_one_name_are_told_apart_by_directory(iso, tmp_path):
     assert figure_stems(output) == sorted([f"figure_08_{tmp_path.name}_idle", "figure_08_loose_idle"])
 
 
+@pytest.mark.long
 def test_overlay_draws_all_runs_in_one_figure(iso, piezo, tmp_path):
     output = tmp_path / "figures"
     done = call_script("plot.py", "motion", iso, piezo, "--overlay", "--output", output)

@@ -112,6 +112,7 @@ def test_a_column_that_was_not_asked_for_is_named(tmp_path, figure, column):
     assert f"has no column '{column}'" in done.stderr
 
 
+@pytest.mark.long
 def test_without_the_piezo_viscous_slopes_the_others_are_drawn(tmp_path):
     path = write_points(tmp_path / "a.rattle", np.geomspace(5e-5, 1e-4, 5), without="stiffness_piezo_viscous")
     done = call_script("plot.py", "film", path, "--figures", "4", "--output", tmp_path / "figures")
@@ -119,6 +120,7 @@ def test_without_the_piezo_viscous_slopes_the_others_are_drawn(tmp_path):
     assert stems(tmp_path / "figures") == ["figure_04a_a", "figure_04b_a"]
 
 
+@pytest.mark.long
 def test_without_profiles_figure_4_is_drawn_and_the_rest_explained(tmp_path):
     path = write_points(tmp_path / "a.rattle", np.geomspace(5e-5, 1e-4, 5))
     done = call_script("plot.py", "film", path, "--output", tmp_path / "figures")

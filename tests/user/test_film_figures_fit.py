@@ -10,6 +10,7 @@ from script_calls import call_script
 from rattle.figures import film_fit
 
 
+@pytest.mark.long
 def test_the_fit_is_printed_and_drawn(tmp_path):
     done = call_script("plot.py", "film-fit", "--output", tmp_path / "figures", "--alpha-p", "0.3,1", "0,0.5")
     assert done.returncode == 0, done.stderr
@@ -21,6 +22,7 @@ def test_the_fit_is_printed_and_drawn(tmp_path):
     assert rows[-1].split()[-4:] == ["0.787", "0.7", "-0.4", "-281.2"]
 
 
+@pytest.mark.long
 def test_the_fit_in_markdown_over_other_ranges(tmp_path):
     ranges = ("--film-ratio", "6e-5,1e-4", "--squeeze-ratio=-4e-4,0", "--speed-group", "2e-7,2e-6")
     done = call_script(

@@ -671,6 +671,7 @@ def assert_worst(rows: Rows, good: Mapping[str, np.ndarray], extra: Sequence[str
 # --- a film task ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_the_page_of_a_film_task_is_its_rows(run, repository, tmp_path):
     assert run(repository / "input" / "film.nml", "--output", tmp_path, cwd=tmp_path).returncode == 0
     path = tmp_path / "film.rattle"

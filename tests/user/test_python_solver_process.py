@@ -37,6 +37,7 @@ def temporary(monkeypatch, tmp_path) -> Path:
     return folder
 
 
+@pytest.mark.long
 def test_twenty_thousand_values_are_taken():
     forces = (20.0 + np.arange(20_000) / 3.0e3).tolist()
     few = {"solver": {"periods": 2, "accuracy": 1e-3}, "spectrum": {"periods": 1}}

@@ -330,6 +330,7 @@ def test_a_campaign_that_is_not_finished_says_so(run, scene_text, tmp_path):
     assert "was not finished" in read_page(report(path)).words
 
 
+@pytest.mark.long
 def test_a_film_task_has_its_figures_and_ranges(run, repository, tmp_path):
     ended = run("--output", tmp_path, repository / "input" / "film.nml", cwd=tmp_path)
     assert ended.returncode == 0, ended.stderr

@@ -77,6 +77,7 @@ def test_scenes_that_failed_or_are_not_done_are_in_no_range_and_no_worst(counted
     assert counted["scene"][best].tolist() == [1.0, 2.0]
 
 
+@pytest.mark.long
 def test_a_share_of_a_line_is_told_in_per_cent(solved) -> None:
     result = (
         solved("calm", solver=CALM, spectrum={"harmonic_threshold": "0.035", "idle_harmonics": "9"})
@@ -104,6 +105,7 @@ def test_every_line_of_a_motion_stands_beside_its_own_error(solved) -> None:
     assert told == [(place + 1, lines[place], errors[place]) for place in range(12)]
 
 
+@pytest.mark.long
 def test_as_many_periods_are_told_as_are_drawn(solved) -> None:
     for periods in (2, 12):
         result = solved(f"of_{periods}", solver={"periods": str(periods)}) / f"of_{periods}.rattle"

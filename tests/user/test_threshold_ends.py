@@ -221,6 +221,7 @@ def test_bytes_depend_on_no_threads_parts_or_cuts(run, rattle, found, tmp_path: 
     assert ended.returncode == 0 and digest(tmp_path / "killed" / "scene.rattle") == whole
 
 
+@pytest.mark.long
 def test_joined_parts_have_the_ends_of_the_undivided_run(run, found, tmp_path: Path) -> None:
     """Also the bytes of the columns of ends, which are known of every crossing."""
     values = {"vary": "'lubricant.viscosity'", "values(:, 1)": "0.003, 0.006, 0.012"}

@@ -192,6 +192,7 @@ def test_ends_of_a_box(criterion, run, repository: Path, tmp_path: Path) -> None
     assert found == [] and crossings >= 2
 
 
+@pytest.mark.long
 def test_a_bound_below_the_level_is_on_no_side(run, rattle: Path, tmp_path: Path) -> None:
     """Of impacts as short as these at least 40 harmonics are known, which may be more than the level."""
     case = gear_rows.draw(35, gear_rows.numeric_keys(rattle))

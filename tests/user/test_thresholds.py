@@ -244,6 +244,7 @@ def test_logarithmic_range_and_integers(found, scene_text) -> None:
     assert len(crossed) >= 1 and (crossed["upper"] - crossed["lower"] == 1.0).all()
 
 
+@pytest.mark.long
 def test_threads_and_another_run_give_the_same_bytes(found, run, scene_text, tmp_path: Path) -> None:
     found(threshold_text(scene_text))
     digests = {digest(tmp_path / "results" / "scene.rattle")}
