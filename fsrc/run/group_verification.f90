@@ -9,14 +9,14 @@
 !> the tighter one is that of a window there.
 module group_verification
    use carried_loads, only: films_of
-   use doubt, only: doubt_samples, doubt_t, doubt_second_ending, first_doubt
+   use doubt, only: doubt_samples, doubt_t, doubt_second_ending, first_doubt, is_doubted
    use engine, only: motion_state_t, request_t, start_of
    use kinds, only: dp
    use motion_behind, only: follow_behind, other_accuracy
    use node_extremes, only: seen_acceleration, seen_films, seen_loads, seen_net_load, seen_quantities
    use periodic_orbit, only: attracting_period, periodic_orbit_t
    use problem, only: of_film
-   use rattle_class, only: class_irregular, class_irregular_so_far, note_known, note_orbit, rattle_verdict_t
+   use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, note_known, note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_group, only: classify_group, scene_group_t, solve_group
    use scene_orbit, only: nearby_orbit
@@ -24,7 +24,7 @@ module group_verification
    use scene_types, only: method_newmark, method_taylor, spectrum_choice_t
    use signals, only: must_stop
    use text_output, only: lock_texts, unlock_texts
-   use verification, only: compare_windows, doubt_of_windows, no_verification, verification_t
+   use verification, only: compare_windows, doubt_of_return, doubt_of_windows, no_verification, verification_t
    use window_extremes, only: extremes_of_record
    use window_impacts, only: agreement_of, impacts_of_record, window_impacts_t
    implicit none(type, external)
@@ -107,9 +107,11 @@ contains
             end if
             call note_known(tight_verdict, verdict)
             call compare(resolved(i), choices(i), method, tighter, i, k, noise(i), doubts(i), group, tight, verifications(i))
-            if (present(impacts)) verifications(i)%impacts = &
-               agreement_of(problem, extremes_of_record(group%records(i)), impacts(i), extremes_of_record(tight%records(k)), &
-                            impacts_of_record(tight%records(k), problem%frequency))
+            if (.not. present(impacts)) cycle
+            if (is_cut(resolved(i), choices(i), group, i, tight, k, request%samples_per_period)) cycle
+            verifications(i)%impacts = agreement_of(problem, extremes_of_record(group%records(i)), impacts(i), &
+                                                    extremes_of_record(tight%records(k)), &
+                                                    impacts_of_record(tight%records(k), problem%frequency))
          end associate
       end do
 
@@ -196,6 +198,28 @@ contains
                               choice%verification_tolerance, tighter%accuracy, tight_noise, verification)
       end associate
    end subroutine compare
+
+   !> Whether a window is shorter than its motion, and so may not have all of its impacts.
+   pure logical function is_cut(resolved, choice, group, place, tight, tight_place, samples_per_period)
+      type(resolved_scene_t), intent(in) :: resolved
+      type(spectrum_choice_t), intent(in) :: choice
+      !> The scene in its group, and its tighter solution
+      type(scene_group_t), intent(in) :: group
+      integer, intent(in) :: place
+      type(scene_group_t), intent(in) :: tight
+      integer, intent(in) :: tight_place
+      integer, intent(in) :: samples_per_period
+      integer :: periods
+
+      periods = group%endings(place)%samples/samples_per_period
+      is_cut = group%verdicts(place)%class == class_subharmonic .and. group%repeat_after(place) > periods
+      if (is_cut) return
+      associate (first => tight%records(tight_place)%start%numbers, last => tight%endings(tight_place)%numbers)
+         is_cut = is_doubted(doubt_of_return(group%verdicts(place), periods, films_of(resolved%problem, &
+                                             reshape([first, last], [2, size(last)], order=[2, 1])), &
+                                             choice%verification_tolerance))
+      end associate
+   end function is_cut
 
    !> Whether the samples are too few, and how many would do.
    pure type(doubt_t) function doubt_of_samples(method, samples_per_period, verdict, tight_verdict, classified_by) result(doubt)

@@ -120,8 +120,8 @@ contains
          call verify_in_nodes(scene, judged%resolved, judged%nodal, judged%periods, judged%repeats_after, window, &
                               judged%extremes, judged%severity, judged%impacts, judged%rattle, judged%verification)
       else if (scene%spectrum%verify) then
-         call verify_motion(scene, judged%resolved, ending, window, judged%extremes, judged%severity, judged%impacts, &
-                            judged%rattle, judged%verification, judged%orbit, error)
+         call verify_motion(scene, judged%resolved, ending, judged%repeats_after, window, judged%extremes, judged%severity, &
+                            judged%impacts, judged%rattle, judged%verification, judged%orbit, error)
       end if
       judged%judged = .not. allocated(error)
    end subroutine judge

@@ -24,7 +24,7 @@ module verify_scene
    use vibration_severity, only: severity_of_record, vibration_severity_t
    use window_class, only: classify_window
    use window_extremes, only: extremes_of_record, window_extremes_t
-   use window_impacts, only: agreement_of, impact_agreement_t, impacts_of_record, window_impacts_t
+   use window_impacts, only: agreement_of, impacts_of_record, window_impacts_t
    implicit none(type, external)
    private
 
@@ -36,13 +36,16 @@ module verify_scene
 contains
 
    !> Verification and periodic motion of a judged scene.
-   subroutine verify_motion(scene, resolved, own, window, extremes, severity, impacts, verdict, verification, orbit, error)
+   subroutine verify_motion(scene, resolved, own, repeats_after, window, extremes, severity, impacts, verdict, verification, &
+                            orbit, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> What follows from it
       type(resolved_scene_t), intent(in) :: resolved
       !> How it ended
       type(ending_t), intent(in) :: own
+      !> Periods of the force after which it repeats, 0 where none is known
+      integer, intent(in) :: repeats_after
       !> Window at its end
       type(window_t), intent(in) :: window
       !> Its extremes, severity and impacts
@@ -74,6 +77,7 @@ contains
       group%records(1)%lowest = extremes%lowest
       group%records(1)%highest = extremes%highest
       allocate (group%verdicts(1), source=verdict)
+      group%repeat_after = [repeats_after]
       call verify_group([resolved], [scene%spectrum], scene%solver%method, request, group, tight, verifications, [impacts], orbits)
       if (allocated(tight%error)) call move_alloc(tight%error, error)
       if (allocated(error)) return
@@ -82,8 +86,6 @@ contains
       orbit = orbits(1)
       ! Newmark's method may be off by more than motions of a scene differ.
       if (scene%solver%method == method_taylor) orbit = orbit_of(resolved%problem, own, orbits(1))
-      ! A window that is shorter than the motion does not have all of its impacts.
-      if (orbit%period > window%periods) verification%impacts = impact_agreement_t()
       call tighten(scene%solver%method, scene%solver%accuracy, accuracy, implicit)
       verification%severity_error = severity_error(severity, severity_of_record(tight%records(1), resolved%problem%frequency), &
                                                     accuracy)
