@@ -238,11 +238,11 @@ contains
       if (.not. told%judged) return
       told%extremes = extremes_of(judged)
       told%class = quantity_word(quantity_rattle_class, judged%rattle%class)
-      ! The window is the orbit of a motion found steady; it begins where the motion ended.
+      ! The window is the orbit of a motion found steady.
       told%window = scene%spectrum%periods
       if (judged%periods < scene%solver%periods) told%orbit = judged%orbit%period
       if (told%orbit > 0) told%window = told%orbit
-      told%periods = judged%periods + told%window
+      told%periods = judged%periods
       told%harmonics(1) = judged%rattle%spectrum%harmonics(1)
       told%harmonic_count = 1
    end subroutine value_told
