@@ -107,11 +107,10 @@ contains
             end if
             call note_known(tight_verdict, verdict)
             call compare(resolved(i), choices(i), method, tighter, i, k, noise(i), doubts(i), group, tight, verifications(i))
-            if (.not. present(impacts)) cycle
-            if (is_cut(resolved(i), choices(i), group, i, tight, k, request%samples_per_period)) cycle
-            verifications(i)%impacts = agreement_of(problem, extremes_of_record(group%records(i)), impacts(i), &
-                                                    extremes_of_record(tight%records(k)), &
-                                                    impacts_of_record(tight%records(k), problem%frequency))
+            if (present(impacts)) verifications(i)%impacts = &
+               agreement_of(problem, extremes_of_record(group%records(i)), impacts(i), extremes_of_record(tight%records(k)), &
+                            impacts_of_record(tight%records(k), problem%frequency), &
+                            is_cut(resolved(i), choices(i), group, i, tight, k, request%samples_per_period))
          end associate
       end do
 
@@ -199,7 +198,7 @@ contains
       end associate
    end subroutine compare
 
-   !> Whether a window is shorter than its motion, and so may not have all of its impacts.
+   !> Whether a window is shorter than its motion.
    pure logical function is_cut(resolved, choice, group, place, tight, tight_place, samples_per_period)
       type(resolved_scene_t), intent(in) :: resolved
       type(spectrum_choice_t), intent(in) :: choice

@@ -145,7 +145,7 @@ contains
                               extremes_of_record(finer%record), verdict, finer_verdict, doubt, scene%spectrum, &
                               scene%spectrum%verification_tolerance, finer_share*scene%solver%accuracy, 0.0_dp, verification)
          verification%impacts = agreement_of(problem, extremes, impacts, extremes_of_record(finer%record), &
-                                             impacts_of_record(finer%record, problem%frequency))
+                                             impacts_of_record(finer%record, problem%frequency), orbit > window%periods)
          verification%severity_error = severity_error(severity, severity_of_record(finer%record, problem%frequency), &
                                                       finer_share*scene%solver%accuracy)
          associate (pressures => [extremes%highest(seen_pressure)%value, finer%record%highest(seen_pressure)%value])

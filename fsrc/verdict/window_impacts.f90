@@ -4,7 +4,7 @@ module window_impacts
    use kinds, only: dp
    use load_record, only: load_record_t, record_load_samples, start_loads
    use node_extremes, only: seen_net_load_of
-   use problem, only: most_contacts, problem_t
+   use problem, only: contact_count, most_contacts, problem_t
    use window_extremes, only: window_extremes_t
    use window_record, only: window_record_t
    implicit none(type, external)
@@ -116,16 +116,22 @@ contains
       end select
    end function verdict_of
 
-   !> In what two windows of a motion agree.
-   pure type(impact_agreement_t) function agreement_of(problem, extremes, impacts, other_extremes, others) result(agreement)
+   !> In what two windows of a motion agree. Of windows that are shorter than the motion the numbers may not be those of all of it,
+   !> and the verdict is it only if every flank is hit, which more periods do not change.
+   pure type(impact_agreement_t) function agreement_of(problem, extremes, impacts, other_extremes, others, is_cut) result(agreement)
       type(problem_t), intent(in) :: problem
       type(window_extremes_t), intent(in) :: extremes
       type(window_impacts_t), intent(in) :: impacts
       type(window_extremes_t), intent(in) :: other_extremes
       type(window_impacts_t), intent(in) :: others
+      !> Whether they are shorter than the motion
+      logical, intent(in) :: is_cut
 
       agreement%verdict = verdict_of(problem, extremes, impacts) == verdict_of(problem, other_extremes, others)
       agreement%numbers = all(impacts%contacts%count*others%periods == others%contacts%count*impacts%periods)
+      if (.not. is_cut) return
+      agreement%verdict = agreement%verdict .and. count(impacts%contacts%count > 0) == contact_count(problem)
+      agreement%numbers = .false.
    end function agreement_of
 
 end module window_impacts

@@ -152,10 +152,17 @@ contains
    !> Windows of unlike length agree where impacts are as many a period.
    subroutine test_agreement(checks)
       type(check_list_t), intent(inout) :: checks
+      real(dp), parameter :: one_flank = huge(1.0_dp), two_flanks = 1.0e-4_dp
 
       call checks%check(agree(3, 2, 6, 4), 'three impacts in two periods, six in four')
       call checks%check(.not. agree(3, 2, 3, 4), 'three impacts in two periods, three in four')
       call checks%check(agree(3, 2, 3, 2) .and. .not. agree(3, 2, 4, 2), 'windows of one length')
+      call checks%check(verdict_stands(1, 0, two_flanks, is_cut=.false.), 'a whole motion that hits one of two flanks')
+      call checks%check(verdict_stands(0, 0, one_flank, is_cut=.false.), 'a whole motion without impacts')
+      call checks%check(verdict_stands(1, 0, one_flank, is_cut=.true.), 'a part of a motion that hits the only flank')
+      call checks%check(.not. verdict_stands(0, 0, one_flank, is_cut=.true.), 'a part of a motion without impacts')
+      call checks%check(.not. verdict_stands(1, 0, two_flanks, is_cut=.true.), 'a part that hits one of two flanks')
+      call checks%check(verdict_stands(1, 2, two_flanks, is_cut=.true.), 'a part that hits both flanks')
 
    contains
 
@@ -170,9 +177,28 @@ contains
          impacts%contacts(1)%count = count
          others%periods = other_periods
          others%contacts(1)%count = other_count
-         agreement = agreement_of(pressed(0.0_dp), extremes, impacts, extremes, others)
+         agreement = agreement_of(pressed(0.0_dp), extremes, impacts, extremes, others, is_cut=.false.)
          agree = agreement%numbers
       end function agree
+
+      !> Whether the verdict of two windows with the same impacts stands; their numbers do only of whole motions.
+      logical function verdict_stands(drive, coast, backlash, is_cut)
+         integer, intent(in) :: drive, coast
+         real(dp), intent(in) :: backlash
+         logical, intent(in) :: is_cut
+         type(window_impacts_t) :: impacts
+         type(window_extremes_t) :: extremes
+         type(impact_agreement_t) :: agreement
+         type(problem_t) :: problem
+
+         problem = pressed(0.0_dp)
+         problem%backlash = backlash
+         impacts%periods = 2
+         impacts%contacts%count = [drive, coast]
+         agreement = agreement_of(problem, extremes, impacts, extremes, impacts, is_cut)
+         call checks%check(agreement%numbers .neqv. is_cut, 'numbers of a part of a motion')
+         verdict_stands = agreement%verdict
+      end function verdict_stands
 
    end subroutine test_agreement
 

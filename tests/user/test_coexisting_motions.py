@@ -255,18 +255,6 @@ def test_irregular_starts_count_to_no_motion_beside(run, repository: Path, tmp_p
     assert later["periods_solved"] == 1500 and later["rattle_class"] == "irregular"
 
 
-@pytest.mark.long
-def test_a_window_shorter_than_the_motion_verifies_no_impacts(run, repository: Path, tmp_path: Path) -> None:
-    """Three periods: of a window of two the third may have other impacts."""
-    keys = ("shaft.speed_rpm=2952.949590881196", "oil.temperature_celsius=80.54266711589196")
-    keys += ("gear.tooth_stiffness=7.359447921735777E8", "load.force_scale=0.5314209936849412")
-    keys += ("solver.starts=1", "solver.until='periods'", "solver.periods=1000")
-    for window in (2, 3):
-        _, told = solve_pair(run, repository, tmp_path, 2, *keys, f"spectrum.periods={window}")
-        assert (told["rattle_class"], told["orbit_period"]) == ("subharmonic", 3)
-        assert told["verdict_verified"] == told["impacts_verified"] == (window == 3)
-
-
 def test_a_start_that_flies_off_is_not_verified(run, scene_text, tmp_path: Path) -> None:
     """From 10 mm at 100 m/s the tooth is metres away: there its class says nothing, in a row neither."""
     start = {"law": "'iso-viscous'", "initial_film": "1e-2", "initial_velocity": "100.0"}

@@ -218,3 +218,30 @@ def test_a_row_counts_the_power_beyond_its_harmonics(run, scene_text, tmp_path: 
     assert row["irregular_fraction"][0] > 0.01
     assert row["rattle_class"][0] == 6.0  # the motion settles: irregular so far
     assert summary_of(tmp_path / "results" / "scene.summary.nml")["rattle_class"] == "irregular_so_far"
+
+
+def test_a_window_shorter_than_the_motion_does_not_tell_all_impacts(run, scene_text, tmp_path: Path) -> None:
+    """The tooth hits its only flank in one of three periods: a window of another one tells of none."""
+    changes = {
+        "contact": {"radius": "0.0361043", "length": "2.402676e-3"},
+        "lubricant": {"viscosity": "0.0333384"},
+        "kinematics": {"entrainment_speed": "0.464067"},
+        "load": {
+            "mass": "0.169181",
+            "steady_force": "4.889613",
+            "force_amplitude": "51.91411",
+            "frequency": "59.84857",
+            "gravity": "9.80665",
+        },
+        "film": {"law": "'iso-viscous'", "model": "'reynolds'"},
+        "solver": {"method": "'taylor'", "steps_per_period": None, "accuracy": "1e-8", "periods": "1000"},
+    }
+    (tmp_path / "scene.nml").write_text(scene_text(**changes))
+    verdicts = {1: ("separation", False, False), 2: (None, True, False), 3: (None, True, True)}
+    for window, (verdict, stands, numbers_stand) in verdicts.items():
+        ended = run("--overwrite", "--set", f"spectrum.periods={window}", "scene.nml", cwd=tmp_path)
+        assert ended.returncode == 0, ended.stderr
+        told = summary_of(tmp_path / "results" / "scene.summary.nml")
+        assert told["orbit_period"] == 3 and told["verdict"] in (verdict, "single-sided impacts")
+        assert told["verdict_verified"] == (stands or told["verdict"] != "separation")
+        assert told["impacts_verified"] == numbers_stand
