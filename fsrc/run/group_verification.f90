@@ -24,7 +24,7 @@ module group_verification
    use scene_types, only: method_newmark, method_taylor, spectrum_choice_t
    use signals, only: must_stop
    use text_output, only: lock_texts, unlock_texts
-   use verification, only: compare_windows, doubt_of_return, doubt_of_windows, no_verification, verification_t
+   use verification, only: compare_windows, doubt_of_return, doubt_of_windows, films_of_ends, no_verification, verification_t
    use window_extremes, only: extremes_of_record
    use window_impacts, only: agreement_of, impacts_of_record, window_impacts_t
    implicit none(type, external)
@@ -110,7 +110,7 @@ contains
             if (present(impacts)) verifications(i)%impacts = &
                agreement_of(problem, extremes_of_record(group%records(i)), impacts(i), extremes_of_record(tight%records(k)), &
                             impacts_of_record(tight%records(k), problem%frequency), &
-                            is_cut(resolved(i), choices(i), group, i, tight, k, request%samples_per_period))
+                            is_part(resolved(i), choices(i), group, i, tight, k, request%samples_per_period))
          end associate
       end do
 
@@ -198,8 +198,8 @@ contains
       end associate
    end subroutine compare
 
-   !> Whether a window is shorter than its motion.
-   pure logical function is_cut(resolved, choice, group, place, tight, tight_place, samples_per_period)
+   !> Whether a window is but a part of its motion.
+   pure logical function is_part(resolved, choice, group, place, tight, tight_place, samples_per_period)
       type(resolved_scene_t), intent(in) :: resolved
       type(spectrum_choice_t), intent(in) :: choice
       !> The scene in its group, and its tighter solution
@@ -211,14 +211,12 @@ contains
       integer :: periods
 
       periods = group%endings(place)%samples/samples_per_period
-      is_cut = group%verdicts(place)%class == class_subharmonic .and. group%repeat_after(place) > periods
-      if (is_cut) return
-      associate (first => tight%records(tight_place)%start%numbers, last => tight%endings(tight_place)%numbers)
-         is_cut = is_doubted(doubt_of_return(group%verdicts(place), periods, films_of(resolved%problem, &
-                                             reshape([first, last], [2, size(last)], order=[2, 1])), &
-                                             choice%verification_tolerance))
-      end associate
-   end function is_cut
+      is_part = group%verdicts(place)%class == class_subharmonic .and. group%repeat_after(place) > periods
+      if (is_part) return
+      is_part = is_doubted(doubt_of_return(group%verdicts(place), periods, &
+                                           films_of_ends(resolved%problem, tight%records(tight_place), &
+                                                         tight%endings(tight_place)%numbers), choice%verification_tolerance))
+   end function is_part
 
    !> Whether the samples are too few, and how many would do.
    pure type(doubt_t) function doubt_of_samples(method, samples_per_period, verdict, tight_verdict, classified_by) result(doubt)

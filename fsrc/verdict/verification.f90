@@ -63,7 +63,8 @@ module verification
    real(dp), parameter :: least_reversals = 8.0_dp
 
    public :: compare_windows, severity_error, no_verification, verification_word, verification_sentence, &
-             doubt_of_windows, doubt_of_closing, doubt_of_flight, doubt_of_impacts, doubt_of_return, windows_behind, doubt_behind
+ doubt_of_windows, doubt_of_closing, doubt_of_flight, doubt_of_impacts, doubt_of_return, windows_behind, doubt_behind, &
+             films_of_ends
 
 contains
 
@@ -238,10 +239,20 @@ contains
                            doubt_of_closing(tight_record, problem%frequency, problem%mass, tight_noise), &
                            too_few_samples, &
                            doubt_of_impacts(verdict, tight_verdict, periods), &
-                           doubt_of_return(verdict, periods, films_of(problem, reshape([tight_record%start%numbers, tight_end], &
-                                                                                       [2, size(tight_end)], order=[2, 1])), &
-                                           tolerance)])
+                           doubt_of_return(verdict, periods, films_of_ends(problem, tight_record, tight_end), tolerance)])
    end function doubt_of_windows
+
+   !> Films where a window begins and where it ends: state, contact [m].
+   pure function films_of_ends(problem, record, end_numbers) result(films)
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      !> Record of the window, and numbers of the state where it ends
+      type(window_record_t), intent(in) :: record
+      real(dp), intent(in) :: end_numbers(:)
+      real(dp), allocatable :: films(:, :)
+
+      films = films_of(problem, reshape([record%start%numbers, end_numbers], [2, size(end_numbers)], order=[2, 1]))
+   end function films_of_ends
 
    !> Why a window does not close.
    pure type(doubt_t) function doubt_of_closing(record, frequency, mass, noise_floor) result(doubt)

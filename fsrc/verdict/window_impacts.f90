@@ -118,18 +118,19 @@ contains
 
    !> In what two windows of a motion agree. Of windows that are shorter than the motion the numbers may not be those of all of it,
    !> and the verdict is it only if every flank is hit, which more periods do not change.
-   pure type(impact_agreement_t) function agreement_of(problem, extremes, impacts, other_extremes, others, is_cut) result(agreement)
+   pure type(impact_agreement_t) function agreement_of(problem, extremes, impacts, other_extremes, others, is_part) &
+      result(agreement)
       type(problem_t), intent(in) :: problem
       type(window_extremes_t), intent(in) :: extremes
       type(window_impacts_t), intent(in) :: impacts
       type(window_extremes_t), intent(in) :: other_extremes
       type(window_impacts_t), intent(in) :: others
       !> Whether they are shorter than the motion
-      logical, intent(in) :: is_cut
+      logical, intent(in) :: is_part
 
       agreement%verdict = verdict_of(problem, extremes, impacts) == verdict_of(problem, other_extremes, others)
       agreement%numbers = all(impacts%contacts%count*others%periods == others%contacts%count*impacts%periods)
-      if (.not. is_cut) return
+      if (.not. is_part) return
       agreement%verdict = agreement%verdict .and. count(impacts%contacts%count > 0) == contact_count(problem)
       agreement%numbers = .false.
    end function agreement_of

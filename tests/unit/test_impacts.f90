@@ -157,12 +157,12 @@ contains
       call checks%check(agree(3, 2, 6, 4), 'three impacts in two periods, six in four')
       call checks%check(.not. agree(3, 2, 3, 4), 'three impacts in two periods, three in four')
       call checks%check(agree(3, 2, 3, 2) .and. .not. agree(3, 2, 4, 2), 'windows of one length')
-      call checks%check(verdict_stands(1, 0, two_flanks, is_cut=.false.), 'a whole motion that hits one of two flanks')
-      call checks%check(verdict_stands(0, 0, one_flank, is_cut=.false.), 'a whole motion without impacts')
-      call checks%check(verdict_stands(1, 0, one_flank, is_cut=.true.), 'a part of a motion that hits the only flank')
-      call checks%check(.not. verdict_stands(0, 0, one_flank, is_cut=.true.), 'a part of a motion without impacts')
-      call checks%check(.not. verdict_stands(1, 0, two_flanks, is_cut=.true.), 'a part that hits one of two flanks')
-      call checks%check(verdict_stands(1, 2, two_flanks, is_cut=.true.), 'a part that hits both flanks')
+      call checks%check(verdict_stands(1, 0, two_flanks, is_part=.false.), 'a whole motion that hits one of two flanks')
+      call checks%check(verdict_stands(0, 0, one_flank, is_part=.false.), 'a whole motion without impacts')
+      call checks%check(verdict_stands(1, 0, one_flank, is_part=.true.), 'a part of a motion that hits the only flank')
+      call checks%check(.not. verdict_stands(0, 0, one_flank, is_part=.true.), 'a part of a motion without impacts')
+      call checks%check(.not. verdict_stands(1, 0, two_flanks, is_part=.true.), 'a part that hits one of two flanks')
+      call checks%check(verdict_stands(1, 2, two_flanks, is_part=.true.), 'a part that hits both flanks')
 
    contains
 
@@ -177,15 +177,15 @@ contains
          impacts%contacts(1)%count = count
          others%periods = other_periods
          others%contacts(1)%count = other_count
-         agreement = agreement_of(pressed(0.0_dp), extremes, impacts, extremes, others, is_cut=.false.)
+         agreement = agreement_of(pressed(0.0_dp), extremes, impacts, extremes, others, is_part=.false.)
          agree = agreement%numbers
       end function agree
 
       !> Whether the verdict of two windows with the same impacts stands; their numbers do only of whole motions.
-      logical function verdict_stands(drive, coast, backlash, is_cut)
+      logical function verdict_stands(drive, coast, backlash, is_part)
          integer, intent(in) :: drive, coast
          real(dp), intent(in) :: backlash
-         logical, intent(in) :: is_cut
+         logical, intent(in) :: is_part
          type(window_impacts_t) :: impacts
          type(window_extremes_t) :: extremes
          type(impact_agreement_t) :: agreement
@@ -195,8 +195,8 @@ contains
          problem%backlash = backlash
          impacts%periods = 2
          impacts%contacts%count = [drive, coast]
-         agreement = agreement_of(problem, extremes, impacts, extremes, impacts, is_cut)
-         call checks%check(agreement%numbers .neqv. is_cut, 'numbers of a part of a motion')
+         agreement = agreement_of(problem, extremes, impacts, extremes, impacts, is_part)
+         call checks%check(agreement%numbers .neqv. is_part, 'numbers of a part of a motion')
          verdict_stands = agreement%verdict
       end function verdict_stands
 
