@@ -348,10 +348,12 @@ module quantities
          'Whether the class is verified: a second solution with a tighter tolerance agrees.'), &
       quantity_t(quantity_verdict_verified, 'verdict_verified', '-', a_flag, part_class, needs_verified_impacts, &
          'summary campaign', &
-         'Whether the verdict is the same when the scene is solved again, tighter.'), &
+         'Whether the verdict is the same when the scene is solved again, tighter; by a part of the motion only if every '// &
+         'flank is hit.'), &
       quantity_t(quantity_impacts_verified, 'impacts_verified', '-', a_flag, part_class, needs_verified_impacts, &
          'summary campaign', &
-         'Whether each flank has as many impacts a period when the scene is solved again, tighter; irregular motions seldom do.'), &
+         'Whether each flank has as many impacts a period when the scene is solved again, tighter, in a window that is no mere '// &
+         'part of the motion; irregular motions seldom do.'), &
       quantity_t(quantity_film_error, 'film_error', '-', a_number, part_errors, needs_verification, 'summary', &
          'Largest error of the films of both flanks over the window, relative to the thinner one.'), &
       quantity_t(quantity_film_minimum_error, 'film_minimum_error', 'm', a_number, part_errors, needs_verification, 'summary', &
