@@ -143,7 +143,7 @@ $(BUILD)/%.o: %.f90 $(BUILD)/flags
 	@$(FC) $(FFLAGS) -J$(BUILD) -c $< -o $@
 
 # The folders that compute may not even widen a kind unseen. (Elsewhere gfortran 12 warns of text positions.)
-COMPUTING := $(foreach folder,$(filter-out foundation scene files run campaign,$(MODULES)),$(wildcard fsrc/$(folder)/*.f90))
+COMPUTING := $(foreach folder,$(filter-out foundation scene files judgement run campaign,$(MODULES)),$(wildcard fsrc/$(folder)/*.f90))
 $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(COMPUTING))): private FFLAGS += $(if $(STRICT),$(WIDENING))
 
 $(BUILD)/film_series.o $(BUILD)/lane_advance.o $(BUILD)/lane_integration.o $(BUILD)/reynolds_piezo_under_load.o $(BUILD)/step_nodes.o: private FFLAGS += $(LANE_FLAGS)

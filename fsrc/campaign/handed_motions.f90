@@ -9,7 +9,7 @@ module handed_motions
    use periodic_orbit, only: periodic_orbit_t
    use problem, only: problem_t
    use rattle_class, only: class_irregular
-   use resolved_scene, only: resolved_scene_t
+   use prepared_scene, only: resolved_scene_t
    use row_motions, only: are_alike, handed_state, row_motions_t, solve_trials, trial_t
    use sampling, only: method_grid, sample_plan_t
    use scene_group, only: scene_group_t

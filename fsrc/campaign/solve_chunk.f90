@@ -18,7 +18,7 @@ module solve_chunk
    use periodic_orbit, only: periodic_orbit_t
    use quantities, only: asks_to_verify, need_count, needs_verification, needs_impacts, needs_motion_verdicts, needs_starts, &
       needs_of, needs_of_choice, needs_orbit, needs_regime, needs_spectrum, needs_verified_impacts, quantity_film_model
-   use resolved_scene, only: engine_request => request_of, resolve, resolved_scene_t
+   use prepared_scene, only: engine_request => request_of, resolve, resolved_scene_t
    use row_motions, only: motion_from_rest, row_motions_t
    use sampling, only: chunk_values, largest_value, sample_plan_t
    use scene_group, only: classify_group, find_orbits, follow_group, scene_group_t, solve_group

@@ -13,7 +13,7 @@ module batch
    use memory_need, only: expect_scene_memory, scenes_that_fit
    use output_lock, only: output_lock_t
    use output_place, only: check_output_place, claim_output_place
-   use resolved_scene, only: resolve
+   use prepared_scene, only: resolve
    use resume, only: load_state
    use run_film, only: run_film_task
    use run_scene, only: run_one_scene

@@ -16,7 +16,7 @@ module run_scene
    use output_place, only: has_motions_table, log_path, motions_path, profiles_path, result_path, state_path, summary_path
    use profiles_table, only: write_profiles
    use progress, only: progress_t
-   use resolved_scene, only: resolve
+   use prepared_scene, only: resolve
    use resume, only: load_state, save_state
    use sample_recorder, only: sample_recorder_t
    use scene_engine, only: solve_scene

@@ -20,7 +20,7 @@ module run_sweep
    use progress, only: progress_t
    use quantities, only: quantities_told_in, quantity_model_limit, quantity_table
    use rattle_class, only: note_orbit
-   use resolved_scene, only: resolve
+   use prepared_scene, only: resolve
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t

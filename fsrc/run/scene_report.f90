@@ -23,7 +23,7 @@ module scene_report
                      hertzian_pressure, rigid_limit, steel_tooth
    use regime_check, only: check_regime, closure_range_sentence, fitting_law, model_limit, model_limit_sentence, outside_closure, &
                            regime_sentence, regime_verdict_t, within_model
-   use resolved_scene, only: resolve, resolved_scene_t
+   use prepared_scene, only: resolve, resolved_scene_t
    use scene_status, only: is_success, status_name, status_sentence
    use scene_types, only: drag_computed, method_newmark, model_published, scene_t, speed_mean, task_film
    use text, only: counted, error_text, integer_text, short_text, spaced

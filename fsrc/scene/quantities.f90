@@ -352,8 +352,8 @@ module quantities
          'flank is hit.'), &
       quantity_t(quantity_impacts_verified, 'impacts_verified', '-', a_flag, part_class, needs_verified_impacts, &
          'summary campaign', &
-         'Whether each flank has as many impacts a period when the scene is solved again, tighter, in a window that is no mere '// &
-         'part of the motion; irregular motions seldom do.'), &
+         'Whether each flank has as many impacts a period when the scene is solved again, tighter, over a whole motion; '// &
+         'irregular ones seldom do.'), &
       quantity_t(quantity_film_error, 'film_error', '-', a_number, part_errors, needs_verification, 'summary', &
          'Largest error of the films of both flanks over the window, relative to the thinner one.'), &
       quantity_t(quantity_film_minimum_error, 'film_minimum_error', 'm', a_number, part_errors, needs_verification, 'summary', &

@@ -54,7 +54,7 @@ program bench_motion
    use errors, only: error_t, fault_list_t
    use kinds, only: dp, int64
    use newmark_engine, only: solve_newmark
-   use resolved_scene, only: request_of, resolve, resolved_scene_t
+   use prepared_scene, only: request_of, resolve, resolved_scene_t
    use scene_reader, only: override_t, read_scenes
    use scene_types, only: scene_t
    use silent_motion, only: no_sink_t, no_watcher_t

@@ -13,7 +13,7 @@ module gear_motions
       quantity_quietest_acceleration_rms, quantity_starts_solved, quantity_unsettled_starts
    use random_scenes, only: draw
    use random_walk, only: next_uniform, random_state_t
-   use resolved_scene, only: resolve, resolved_scene_t
+   use prepared_scene, only: resolve, resolved_scene_t
    use sampling, only: plan_grid, sample_plan_t
    use scene_reader, only: override_t, read_scenes
    use scene_status, only: is_success

@@ -8,7 +8,7 @@ module judged_scenes
    use kinds, only: dp, int64
    use random_walk, only: next_uniform, random_state_t
    use random_scenes, only: choose_law, draw, draw_scene, drawn_scene_t, laws
-   use resolved_scene, only: resolve
+   use prepared_scene, only: resolve
    use scene_types, only: forced_orders, iteration_newton, iteration_successive, law_piezo_viscous, method_newmark, method_taylor, &
                           model_reynolds, &
                           predictor_extrapolated, predictor_previous, scene_t, until_periods, until_steady

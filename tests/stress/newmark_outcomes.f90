@@ -15,7 +15,7 @@ program newmark_outcomes
    use newmark, only: advance_period, newmark_state_t, start_motion
    use random_scenes, only: drawn_scene_t
    use rattle_class, only: classify, rattle_verdict_t
-   use resolved_scene, only: resolve
+   use prepared_scene, only: resolve
    use scene_reader, only: override_t, read_scenes
    use scene_types, only: scene_t
    use scene_status, only: is_success, status_complete

@@ -6,7 +6,7 @@ module random_scenes
    use film_law, only: film_load, film_t, new_film, overflow_load
    use kinds, only: dp, int64
    use random_walk, only: next_uniform, random_state_t
-   use resolved_scene, only: resolve, resolved_scene_t
+   use prepared_scene, only: resolve, resolved_scene_t
    use run_sweep, only: carried_state_t
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, &
       rupture_half_pi, &

@@ -7,7 +7,7 @@ module reference_check
    use kinds, only: dp
    use lobatto_rule, only: lobatto_rule_t
    use random_scenes, only: choose_law
-   use resolved_scene, only: resolve, resolved_scene_t
+   use prepared_scene, only: resolve, resolved_scene_t
    use scene_types, only: scene_t
    implicit none(type, external)
    private

@@ -17,7 +17,7 @@ module told_summary
                          quantity_film_maximum, quantity_film_minimum, quantity_harmonics, quantity_orbit_period, &
                          quantity_periods_solved, quantity_rattle_class, quantity_sampling_sufficient, quantity_word
    use random_scenes, only: drawn_scene_t
-   use resolved_scene, only: request_of, resolved_scene_t
+   use prepared_scene, only: request_of, resolved_scene_t
    use run_sweep, only: carried_state_t, solve_value
    use sample_recorder, only: sample_recorder_t
    use sampling, only: plan_table, sample_plan_t

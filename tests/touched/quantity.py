@@ -9,7 +9,7 @@ import scene
 from run_touched import ToyError, Tree
 
 INPUT = scene.scene_text()
-TABLE, VALUES = "fsrc/scene/quantities.f90", "fsrc/run/judged_scene.f90"
+TABLE, VALUES = "fsrc/scene/quantities.f90", "fsrc/judgement/judged_scene.f90"
 NAME = "quantity_acceleration_swing, &\n         "
 ROW = """      quantity_t(quantity_acceleration_swing, 'acceleration_swing', 'm/s2', a_number, part_window, &
          needs_acceleration_range, 'summary sweep campaign', &

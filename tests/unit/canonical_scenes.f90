@@ -6,7 +6,7 @@ module canonical_scenes
    use kinds, only: dp
    use newmark_engine, only: solve_newmark
    use problem, only: problem_of
-   use resolved_scene, only: request_of
+   use prepared_scene, only: request_of
    use sample_recorder, only: sample_recorder_t
    use scene_types, only: law_elastohydrodynamic, law_iso_viscous, model_closure, model_reynolds, scene_t
    use window_record, only: window_record_t

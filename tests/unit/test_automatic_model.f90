@@ -7,7 +7,7 @@ module test_automatic_model
    use kinds, only: dp
    use node_extremes, only: seen_loads, seen_net_load
    use problem, only: coast_flank, drive_flank, largest_applied_force
-   use resolved_scene, only: resolve
+   use prepared_scene, only: resolve
    use scene_status, only: status_complete, status_film_lost, status_interrupted
    use scene_types, only: viscosity_constant, viscosity_roelands
    implicit none(type, external)

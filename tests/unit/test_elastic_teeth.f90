@@ -19,7 +19,7 @@ module test_elastic_teeth
    use problem, only: film_at_rest, films_at_rest, loads_at_rest, of_drive_compression, of_film, of_velocity, problem_of, &
       problem_t, static_load
    use quantities, only: quantity_damping_ratio, quantity_natural_frequency
-   use resolved_scene, only: resolved_scene_t
+   use prepared_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_complete, status_no_rigid_film
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, rupture_half_pi, rupture_solved, &
       scene_t

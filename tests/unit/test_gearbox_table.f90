@@ -14,7 +14,7 @@ module test_gearbox_table
    use node_extremes, only: seen_acceleration, seen_films
    use output_place, only: log_path, summary_path
    use rattle_class, only: class_idle
-   use resolved_scene, only: resolve
+   use prepared_scene, only: resolve
    use scene_status, only: status_film_lost, status_steady
    use scene_types, only: scene_t
    use text, only: short_text

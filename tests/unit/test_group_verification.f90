@@ -11,7 +11,7 @@ module test_group_verification
    use node_extremes, only: seen_quantities
    use rattle_class, only: class_creep, class_idle, class_irregular, class_irregular_so_far, class_quiet, class_subharmonic, &
                            rattle_verdict_t
-   use resolved_scene, only: resolve, resolved_scene_t
+   use prepared_scene, only: resolve, resolved_scene_t
    use scene_group, only: classify_group, find_orbits, scene_group_t, solve_group
    use scene_status, only: status_complete, status_film_lost, status_steady
    use scene_types, only: law_iso_viscous, method_taylor, scene_t, spectrum_choice_t

@@ -22,7 +22,7 @@ module test_inner_states
    use quantities, only: a_list, quantities_told_in, quantity_acceleration_maximum, quantity_verified, quantity_film_minimum, &
                          quantity_rattle_class, quantity_table
    use relaxing_film, only: chain_length, relaxing_film_t
-   use resolved_scene, only: request_of, resolve
+   use prepared_scene, only: request_of, resolve
    use resume, only: load_state, save_state
    use sample_recorder, only: sample_recorder_t
    use sampling, only: plan_table, sample_plan_t

@@ -11,7 +11,7 @@ module test_judged_scene
    use node_extremes, only: seen_acceleration, seen_films, seen_loads, seen_position, seen_quantities, seen_velocity
    use quantities, only: quantity_table
    use rattle_class, only: class_creep, class_idle, class_irregular
-   use resolved_scene, only: resolve
+   use prepared_scene, only: resolve
    use scene_types, only: drag_computed, scene_t
    implicit none(type, external)
    private

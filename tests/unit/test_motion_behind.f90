@@ -9,7 +9,7 @@ module test_motion_behind
    use many_motions, only: solve_motions
    use motion_behind, only: follow_behind, other_accuracy
    use rattle_class, only: class_irregular, class_irregular_so_far
-   use resolved_scene, only: resolve, resolved_scene_t
+   use prepared_scene, only: resolve, resolved_scene_t
    use scene_types, only: law_iso_viscous, scene_t, spectrum_choice_t
    use verification, only: windows_behind
    implicit none(type, external)

@@ -11,7 +11,7 @@ module test_nodal_engine
    use node_extremes, only: seen_acceleration, seen_films, seen_loads, seen_pressure
    use carried_loads, only: gear_positions
    use problem, only: problem_of, problem_t, state_size
-   use resolved_scene, only: request_of
+   use prepared_scene, only: request_of
    use scene_status, only: status_complete, status_steady
    use scene_types, only: law_elastohydrodynamic, method_taylor, model_resolved, scene_t, until_periods, until_steady, &
                           viscosity_constant, viscosity_roelands

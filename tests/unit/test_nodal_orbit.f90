@@ -20,7 +20,7 @@ module test_nodal_orbit
    use nodal_tangent, only: displace, nodal_tangent_t, start_tangent
    use periodic_orbit, only: periodic_orbit_t
    use problem, only: problem_of, problem_t, state_size
-   use resolved_scene, only: request_of
+   use prepared_scene, only: request_of
    use scene_status, only: status_complete, status_time_limit
    use scene_types, only: law_elastohydrodynamic, model_resolved, scene_t, until_periods, viscosity_constant, viscosity_roelands
    use window_record, only: window_record_t

@@ -11,7 +11,7 @@ module test_nodal_profiles
    use nodal_step, only: nodal_choice_t
    use node_extremes, only: seen_loads
    use problem, only: coast_flank, drive_flank, problem_of, problem_t, state_size
-   use resolved_scene, only: request_of
+   use prepared_scene, only: request_of
    use scene_types, only: model_resolved, scene_t, viscosity_roelands
    use text, only: integer_text
    use window_impacts, only: impacts_of_record, window_impacts_t

@@ -25,7 +25,7 @@ module test_quantities
                          quantity_impacts_drive, quantity_verified, quantity_gear_position_maximum, &
                          quantity_gear_position_minimum, quantity_periods_solved, quantity_status, quantity_table, &
                          quantity_word
-   use resolved_scene, only: request_of, resolve
+   use prepared_scene, only: request_of, resolve
    use run_sweep, only: carried_state_t, solve_value
    use sample_recorder, only: sample_recorder_t
    use sampling, only: plan_table, sample_plan_t

@@ -6,7 +6,7 @@ module test_scene_group
    use kinds, only: dp
    use node_extremes, only: seen_quantities
    use problem, only: state_size
-   use resolved_scene, only: resolve, resolved_scene_t
+   use prepared_scene, only: resolve, resolved_scene_t
    use scene_group, only: classify_group, scene_group_t, solve_group
    use scene_types, only: law_iso_viscous, scene_t, spectrum_choice_t
    implicit none(type, external)

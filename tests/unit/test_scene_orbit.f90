@@ -6,7 +6,7 @@ module test_scene_orbit
    use kinds, only: dp
    use periodic_orbit, only: map_states, periodic_orbit_t
    use problem, only: of_velocity, problem_t
-   use resolved_scene, only: resolve, resolved_scene_t
+   use prepared_scene, only: resolve, resolved_scene_t
    use scene_texts, only: read_text
    use scene_types, only: scene_t
    use scene_orbit, only: nearby_orbit, orbit_of

@@ -44,7 +44,7 @@ module judged_scene
    use rattle_class, only: rattle_verdict_t
    use regime, only: deflection_limit, film_elastohydrodynamic
    use regime_check, only: closure_range, model_limit, regime_verdict_t
-   use resolved_scene, only: resolved_scene_t
+   use prepared_scene, only: resolved_scene_t
    use scene_status, only: status_complete, status_no_rigid_film
    use scene_types, only: drag_computed, drag_t, drag_unknown
    use window_extremes, only: window_extremes_t

@@ -9,7 +9,7 @@ module scene_engine
    use nodal_scene, only: choice_of, solve_nodal_scene
    use nodal_step, only: nodal_choice_t
    use problem, only: problem_t
-   use resolved_scene, only: request_of
+   use prepared_scene, only: request_of
    use scene_types, only: method_taylor, scene_t
    use text_output, only: lock_texts, unlock_texts
    use window_record, only: window_record_t

@@ -11,7 +11,7 @@ module automatic_model
    use node_extremes, only: seen_loads, seen_net_load_of
    use problem, only: contact_count, largest_applied_force
    use regime_check, only: closure_range, closure_range_sentence, outside_closure
-   use resolved_scene, only: resolve
+   use prepared_scene, only: resolve
    use sample_recorder, only: sample_recorder_t
    use scene_engine, only: solve_scene
    use scene_status, only: is_success, status_film_cycles, status_film_torn, status_interrupted, status_name

@@ -13,7 +13,7 @@ module row_motions
    use periodic_orbit, only: map_states
    use problem, only: problem_t, state_size
    use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, rattle_verdict_t
-   use resolved_scene, only: resolved_scene_t
+   use prepared_scene, only: resolved_scene_t
    use scene_group, only: classify_group, has_window, scene_group_t, solve_group
    use scene_status, only: is_success
    use scene_types, only: spectrum_choice_t

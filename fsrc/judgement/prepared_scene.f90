@@ -1,5 +1,5 @@
-!> A scene with all that follows from it before anything is solved.
-module resolved_scene
+!> A scene as it is solved and judged: what follows from it, the limits of its classes, and what its engine is asked.
+module prepared_scene
    use constants, only: two_pi
    use collocation_basis, only: pass_share
    use engine, only: request_t
@@ -13,7 +13,7 @@ module resolved_scene
    use regime_check, only: steady_alpha_p
    use rupture, only: squeeze_group
    use scene_types, only: drag_t, excitation_t, iteration_newton, method_newmark, predictor_extrapolated, &
-                          scene_t, until_steady
+                          scene_t, spectrum_choice_t, until_steady
    use taylor_step_control, only: film_weight, lienard_weight
    implicit none(type, external)
    private
@@ -51,9 +51,33 @@ module resolved_scene
       procedure :: noise_floor_at
    end type resolved_scene_t
 
-   public :: resolve, request_of
+   !> A scene that is ready to be solved and judged.
+   type, public :: prepared_scene_t
+      type(resolved_scene_t) :: resolved
+      !> Limits of its classes and impacts
+      type(spectrum_choice_t) :: spectrum
+      !> What its engine is asked
+      type(request_t) :: request
+      !> Code of its method, and starts whose motions are looked for
+      integer :: method = 0
+      integer :: starts = 1
+   end type prepared_scene_t
+
+   public :: prepare, resolve, request_of
 
 contains
+
+   !> Prepare a scene for its solution.
+   pure type(prepared_scene_t) function prepare(scene) result(prepared)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+
+      prepared%resolved = resolve(scene)
+      prepared%spectrum = scene%spectrum
+      prepared%request = request_of(scene)
+      prepared%method = scene%solver%method
+      prepared%starts = scene%solver%starts
+   end function prepare
 
    !> Work out what follows from a scene.
    pure function resolve(scene) result(resolved)
@@ -156,4 +180,4 @@ contains
       noise_of_steps = film*(most_share*stiffness*film_error + damping*frequency*lienard_error)
    end function noise_of_steps
 
-end module resolved_scene
+end module prepared_scene

@@ -12,7 +12,7 @@ module motion_behind
    use many_motions, only: solve_motions
    use problem, only: state_size
    use rattle_class, only: classify_steps, is_off_harmonics, rattle_verdict_t
-   use resolved_scene, only: resolved_scene_t
+   use prepared_scene, only: resolved_scene_t
    use scene_status, only: is_success
    use scene_types, only: spectrum_choice_t
    use signals, only: must_stop

@@ -13,7 +13,7 @@ module verify_scene
    use node_extremes, only: seen_pressure
    use periodic_orbit, only: periodic_orbit_t
    use rattle_class, only: class_irregular, classify_steps, note_known, note_orbit, rattle_verdict_t
-   use resolved_scene, only: request_of, resolved_scene_t
+   use prepared_scene, only: request_of, resolved_scene_t
    use scene_group, only: scene_group_t
    use scene_orbit, only: orbit_of
    use scene_status, only: is_success

@@ -21,7 +21,7 @@ module follow_starts
    use periodic_orbit, only: attracting_period, map_states, periodic_orbit_t
    use problem, only: of_film, of_velocity, problem_t, state_size
    use rattle_class, only: class_irregular, class_irregular_so_far, note_orbit, rattle_verdict_t
-   use resolved_scene, only: request_of
+   use prepared_scene, only: request_of
    use scene_orbit, only: nearby_orbit, orbit_ahead
    use scene_status, only: is_success, status_complete
    use scene_types, only: scene_t

@@ -17,7 +17,7 @@ module group_verification
    use periodic_orbit, only: attracting_period, periodic_orbit_t
    use problem, only: of_film
    use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, note_known, note_orbit, rattle_verdict_t
-   use resolved_scene, only: resolved_scene_t
+   use prepared_scene, only: resolved_scene_t
    use scene_group, only: classify_group, scene_group_t, solve_group
    use scene_orbit, only: nearby_orbit
    use scene_status, only: is_success, status_steady
