@@ -4,7 +4,7 @@ module campaign_record
    use judged_scene, only: judged_scene_t, quantity_list, quantity_value
    use key_table, only: keys
    use kinds, only: dp, int64
-   use quantities, only: a_list, needs_motion_verdicts, needs_starts, quantity_t, quantity_table
+   use quantities, only: a_list, quantity_t, quantity_table
    use result_format, only: column_name_bytes, column_unit_bytes
    use scene_types, only: scene_t
    use text, only: integer_text
@@ -15,7 +15,7 @@ module campaign_record
    !> Numbers of a list that are recorded.
    integer, parameter :: recorded_numbers = 8
 
-   public :: record_columns, record_motions, record_number, record_row
+   public :: record_columns, record_number, record_row
 
 contains
 
@@ -111,45 +111,14 @@ contains
       real(dp), intent(in) :: number
       !> With all other columns
       real(dp), intent(inout) :: row(:)
-      integer :: columns(size(scene%campaign%record)), i
+      integer :: column, i
 
-      columns = last_columns(scene, size(row))
-      do i = 1, size(columns)
-         if (scene%campaign%record(i) == code) row(columns(i)) = number
-      end do
-   end subroutine record_number
-
-   !> Last column of each recorded quantity: these stand at the end of a row.
-   pure function last_columns(scene, row_size) result(columns)
-      type(scene_t), intent(in) :: scene
-      !> Columns of a row
-      integer, intent(in) :: row_size
-      integer :: columns(size(scene%campaign%record))
-      integer :: i, column
-
-      column = row_size
-      do i = size(columns), 1, -1
-         columns(i) = column
+      ! They stand at the end of a row.
+      column = size(row)
+      do i = size(scene%campaign%record), 1, -1
+         if (scene%campaign%record(i) == code) row(column) = number
          column = column - merge(recorded_numbers, 1, quantity_table(scene%campaign%record(i))%kind == a_list)
       end do
-   end function last_columns
-
-   !> Put what is known of all motions of a scene into its row.
-   pure subroutine record_motions(scene, judged, row)
-      !> Base scene, for the choice of columns
-      type(scene_t), intent(in) :: scene
-      !> With the motions
-      type(judged_scene_t), intent(in) :: judged
-      !> With all other columns
-      real(dp), intent(inout) :: row(:)
-      integer :: columns(size(scene%campaign%record)), i
-
-      columns = last_columns(scene, size(row))
-      do i = 1, size(columns)
-         associate (quantity => quantity_table(scene%campaign%record(i)))
-            if (any(quantity%need == [needs_starts, needs_motion_verdicts])) row(columns(i)) = quantity_value(quantity%code, judged)
-         end associate
-      end do
-   end subroutine record_motions
+   end subroutine record_number
 
 end module campaign_record

@@ -6,7 +6,8 @@ module core_time
    use prepared_campaign, only: campaign_t
    use scene_types, only: scene_t
    use signals, only: lift_time_limit, limit_time, must_stop
-   use solve_chunk, only: chunk_space_t, solve_scenes
+   use judge_group, only: judgement_space_t
+   use solve_chunk, only: solve_scenes
    use text, only: integer_text, short_text
    implicit none(type, external)
    private
@@ -25,7 +26,7 @@ contains
       !> Prepared
       type(campaign_t), intent(in) :: campaign
       character(:), allocatable :: sentence
-      type(chunk_space_t) :: space
+      type(judgement_space_t) :: space
       type(error_t), allocatable :: error
       real(dp), allocatable :: rows(:, :)
       real(dp) :: started, seconds

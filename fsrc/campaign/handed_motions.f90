@@ -1,20 +1,20 @@
 !> All motions of the scenes of a batch that are looked for: from the starts of each scene, and on a grid from the motions of its
 !> neighbours, in rounds until no scene lacks a motion that a neighbour has.
 module handed_motions
-   use engine, only: motion_state_t, request_t, state_of_start
+   use engine, only: motion_state_t, state_of_start
    use errors, only: error_t
    use grid_blocks, only: neighbours_of
-   use kinds, only: dp, int64
+   use kinds, only: int64
    use motion_start, only: motion_start_t, motion_starts, one_start_reason, several_starts
    use periodic_orbit, only: periodic_orbit_t
    use problem, only: problem_t
    use rattle_class, only: class_irregular
-   use prepared_scene, only: resolved_scene_t
+   use prepared_scene, only: prepared_scene_t
    use row_motions, only: are_alike, handed_state, row_motions_t, solve_trials, trial_t
    use sampling, only: method_grid, sample_plan_t
    use scene_group, only: scene_group_t
    use scene_orbit, only: orbit_ahead
-   use scene_types, only: scene_t, spectrum_choice_t
+   use scene_types, only: scene_t
    use settled_motion, only: settled_motion_t
    use signals, only: must_stop
    use varied_keys, only: pair_position
@@ -37,16 +37,14 @@ module handed_motions
 contains
 
    !> Find the motions of the scenes of a batch beside those from rest. After a signal to stop they are of no use.
-   subroutine find_other_motions(scene, plan, first, resolved, choices, requests, with_verdicts, order, space, found, error)
+   subroutine find_other_motions(scene, plan, first, scenes, with_verdicts, order, space, found, error)
       !> Base scene
       type(scene_t), intent(in) :: scene
       !> The plan, and number of the first scene of the batch
       type(sample_plan_t), intent(in) :: plan
       integer(int64), intent(in) :: first
-      !> Scenes of the batch, limits of their classes, and what was asked of the engine
-      type(resolved_scene_t), intent(in) :: resolved(:)
-      type(spectrum_choice_t), intent(in) :: choices(:)
-      type(request_t), intent(in) :: requests(:)
+      !> Scenes of the batch
+      type(prepared_scene_t), intent(in) :: scenes(:)
       !> Whether the verdicts of the motions are asked for
       logical, intent(in) :: with_verdicts
       !> Those of them that were solved from rest, in the order in which they are solved
@@ -60,7 +58,7 @@ contains
       integer :: place
 
       do place = 1, size(order)
-         found(order(place))%told%one_start_reason = one_start_reason(resolved(order(place))%problem, scene%solver%method)
+         found(order(place))%told%one_start_reason = one_start_reason(scenes(order(place))%resolved%problem, scene%solver%method)
       end do
       call try_starts(pack(order, found(order)%told%one_start_reason == several_starts .and. found(order)%told%starts_solved > 0))
       if (must_stop() .or. allocated(error)) return
@@ -70,28 +68,28 @@ contains
 
       !> Follow all starts but the first, rest. A motion from rest that has not shown what it is, is followed on before them, others
       !> after them.
-      subroutine try_starts(scenes)
+      subroutine try_starts(places)
          !> Places of the scenes that have several starts
-         integer, intent(in) :: scenes(:)
-         type(motion_start_t) :: starts(scene%solver%starts, size(scenes))
+         integer, intent(in) :: places(:)
+         type(motion_start_t) :: starts(scene%solver%starts, size(places))
          type(motion_state_t) :: state
-         type(trial_t) :: trials(size(scenes), scene%solver%starts)
-         logical :: follows(size(scenes))
+         type(trial_t) :: trials(size(places), scene%solver%starts)
+         logical :: follows(size(places))
          integer :: number, i
 
-         do i = 1, size(scenes)
-            associate (own => found(scenes(i)))
-               trials(i, 1) = trial_t(scenes(i), own%settled(1)%states(:, 1), is_own=.true.)
+         do i = 1, size(places)
+            associate (own => found(places(i)))
+               trials(i, 1) = trial_t(places(i), own%settled(1)%states(:, 1), is_own=.true.)
                follows(i) = own%settled(1)%period == 0 .and. own%told%motions(1)%class /= class_irregular
             end associate
-            starts(:, i) = motion_starts(resolved(scenes(i))%problem, scene%solver%starts, start_seed)
+            starts(:, i) = motion_starts(scenes(places(i))%resolved%problem, scene%solver%starts, start_seed)
          end do
          call follow_on(follows, trials(:, 1))
          if (must_stop() .or. allocated(error)) return
          do number = 2, scene%solver%starts
-            do i = 1, size(scenes)
-               state = state_of_start(resolved(scenes(i))%problem, starts(number, i))
-               trials(i, number) = trial_t(scenes(i), state%numbers)
+            do i = 1, size(places)
+               state = state_of_start(scenes(places(i))%resolved%problem, starts(number, i))
+               trials(i, number) = trial_t(places(i), state%numbers)
             end do
             call try(trials(:, number))
             if (must_stop() .or. allocated(error)) return
@@ -99,7 +97,7 @@ contains
          ! Of starts that settle slowly the next one is followed on only if those before it have shown where they lead.
          follows = .true.
          do number = 2, scene%solver%starts
-            follows = follows .and. [(all(found(scenes(i))%told%motions%class /= class_irregular), i=1, size(scenes))]
+            follows = follows .and. [(all(found(places(i))%told%motions%class /= class_irregular), i=1, size(places))]
             trials(:, number)%goes_on = .true.
             call follow_on(follows .and. trials(:, number)%is_open, trials(:, number))
             if (must_stop() .or. allocated(error)) return
@@ -117,7 +115,7 @@ contains
             allocate (handed(i)%scenes(0), handed(i)%places(0), handed(i)%unsettled(0))
          end do
          do
-            call next_round(plan, first, resolved, found, handed, trials)
+            call next_round(plan, first, scenes, found, handed, trials)
             if (size(trials) == 0) return
             call try(trials)
             if (must_stop() .or. allocated(error)) return
@@ -152,7 +150,7 @@ contains
             these = trials(left)
             do i = 1, size(these)
                if (must_stop()) return
-               call go_to_orbit(resolved(these(i)%scene)%problem, these(i))
+               call go_to_orbit(scenes(these(i)%scene)%resolved%problem, these(i))
             end do
             call try(these)
             if (must_stop() .or. allocated(error)) return
@@ -165,7 +163,7 @@ contains
       subroutine try(trials)
          type(trial_t), intent(inout) :: trials(:)
 
-         call solve_trials(resolved, choices, requests, with_verdicts, trials, space, found, error)
+         call solve_trials(scenes, with_verdicts, trials, space, found, error)
       end subroutine try
 
    end subroutine find_other_motions
@@ -181,10 +179,10 @@ contains
    end subroutine go_to_orbit
 
    !> Starts of the next round. Of motions that are alike a scene is handed one in a round, and none any more if one did not settle.
-   subroutine next_round(plan, first, resolved, found, handed, trials)
+   subroutine next_round(plan, first, scenes, found, handed, trials)
       type(sample_plan_t), intent(in) :: plan
       integer(int64), intent(in) :: first
-      type(resolved_scene_t), intent(in) :: resolved(:)
+      type(prepared_scene_t), intent(in) :: scenes(:)
       type(row_motions_t), intent(in) :: found(:)
       type(handed_t), intent(inout) :: handed(:)
       type(trial_t), allocatable, intent(out) :: trials(:)
@@ -210,7 +208,7 @@ contains
                   handed(to)%scenes = [handed(to)%scenes, from]
                   handed(to)%places = [handed(to)%places, place]
                   known = [known, motion]
-                  trials = [trials, trial_t(to, handed_state(resolved(to)%problem, motion, resolved(from)%problem))]
+                  trials = [trials, trial_t(to, handed_state(scenes(to)%resolved%problem, motion, scenes(from)%resolved%problem))]
                end associate
             end do
          end do

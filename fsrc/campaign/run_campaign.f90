@@ -17,11 +17,12 @@ module run_campaign
    use row_counts, only: count_beyond_model, count_done, count_failed, count_followed, count_irregular, count_irregular_so_far, &
       count_rows, count_several, count_tested, count_uncertain, count_undersampled
    use scene_summary, only: add_notes, add_results
-   use scene_status, only: is_success, status_complete, status_interrupted, status_name, status_not_written
+   use scene_status, only: status_complete, status_interrupted, status_name, status_not_written
    use scene_types, only: scene_t
    use schedule, only: pace_t
    use signals, only: caught_signal
-   use solve_chunk, only: chunk_space_t, scenes_of_block, solve_scenes
+   use judge_group, only: judgement_space_t
+   use solve_chunk, only: scenes_of_block, solve_scenes
    use summary_file, only: summary_t
    use table_task, only: table_task_t
    use text, only: counted, integer_text, short_text
@@ -141,7 +142,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: own_error
       integer(int64), allocatable :: pending(:)
-      type(chunk_space_t) :: space
+      type(judgement_space_t) :: space
       type(pace_t) :: pace
       integer(int64) :: ticket, last_ticket, taken, left, chunk, chunk_rows, ignored, scenes
       real(dp) :: started
@@ -203,7 +204,7 @@ contains
       integer(int64), intent(in) :: chunks(:)
       type(campaign_file_t), intent(inout) :: results
       !> Work space of this thread
-      type(chunk_space_t), intent(inout) :: space
+      type(judgement_space_t), intent(inout) :: space
       type(campaign_progress_t), intent(inout) :: progress
       !> How many scenes were solved
       integer(int64), intent(out) :: scenes

@@ -13,7 +13,8 @@ module scene_family
    use scene_status, only: is_success, status_complete
    use scene_types, only: scene_t
    use signals, only: must_stop
-   use solve_chunk, only: chunk_space_t, solve_starts
+   use judge_group, only: judgement_space_t
+   use solve_chunk, only: solve_starts
    use threshold_search, only: known_side, new_point, point_t, side_unknown
    use varied_keys, only: is_valid_scene, set_varied_keys
    implicit none(type, external)
@@ -42,7 +43,7 @@ module scene_family
       !> Side that is followed
       integer :: side = side_unknown
       !> Work space
-      type(chunk_space_t) :: space
+      type(judgement_space_t) :: space
       !> Set if there was no memory for the samples of a scene: nothing that was found is of use
       type(error_t), allocatable, public :: error
    contains

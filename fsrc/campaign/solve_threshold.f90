@@ -10,11 +10,11 @@ module solve_threshold
    use ranks, only: add_over_ranks, next_tickets, rank_count, renew_tickets, sum_over_ranks, this_rank, wait_for_ranks
    use row_counts, only: count_rows
    use sampling, only: sample_plan_t
-   use scene_status, only: is_success
    use scene_types, only: scene_t
    use schedule, only: pace_t
    use signals, only: caught_signal
-   use solve_chunk, only: chunk_space_t, solve_scenes
+   use judge_group, only: judgement_space_t
+   use solve_chunk, only: solve_scenes
    use solve_ends, only: end_traces
    use threshold_outcome, only: outcome_t, save_outcome, solved_scenes
    use threshold_search, only: known_side, merged_points, missing_middles, missing_scan, new_point, point_t, untested_ends
@@ -98,7 +98,7 @@ contains
       type(error_t), allocatable :: own_error
       type(scene_t) :: recorded
       type(sample_plan_t) :: plan
-      type(chunk_space_t) :: space
+      type(judgement_space_t) :: space
       type(pace_t) :: pace, next_pace
       real(dp), allocatable :: answers(:, :), rows(:, :)
       integer(int64) :: first, last, taken, left

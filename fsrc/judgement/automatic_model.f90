@@ -3,21 +3,16 @@
 !> closure could change it.
 module automatic_model
    use elastohydrodynamic_closure, only: error_of_loads
-   use engine, only: checkpoint_t, ending_t, unwatched_t
    use errors, only: error_t
-   use judge_scene, only: judge, note_ending
    use judged_scene, only: judged_scene_t, largest_load
    use kinds, only: dp
    use node_extremes, only: seen_loads, seen_net_load_of
    use problem, only: contact_count, largest_applied_force
    use regime_check, only: closure_range, closure_range_sentence, outside_closure
-   use prepared_scene, only: resolve
-   use sample_recorder, only: sample_recorder_t
-   use scene_engine, only: solve_scene
+   use scene_solution, only: solve_in_memory
    use scene_status, only: is_success, status_film_cycles, status_film_torn, status_interrupted, status_name
-   use scene_types, only: model_closure, model_resolved, scene_t
+   use scene_types, only: model_resolved, scene_t
    use text, only: short_text
-   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -32,11 +27,11 @@ module automatic_model
       real(dp) :: load = 0.0_dp, limit = 0.0_dp, error = 0.0_dp
    end type reason_t
 
-   public :: choose_model, reason_for_nodes, solve_in_memory, scene_in_nodes, nodes_stopped
+   public :: choose_model, closure_instead, reason_for_nodes, scene_in_nodes, nodes_stopped
 
 contains
 
-   !> The scene that is solved for one whose model is automatic.
+   !> The scene that is solved for one whose model is automatic: a motion by the closure, without verification, decides.
    subroutine choose_model(scene, chosen, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
@@ -47,33 +42,37 @@ contains
       type(scene_t) :: tried
       type(judged_scene_t) :: judged
       type(reason_t) :: reason
-      character(:), allocatable :: why
 
       chosen = scene
       chosen%film%automatic = .false.
-      tried = in_memory(chosen)
+      tried = chosen
+      tried%gearbox = ''
       tried%spectrum%verify = .false.
       call solve_in_memory(tried, judged, error)
       if (allocated(error)) return
       reason = reason_for_nodes(judged, scene%spectrum%impact_limit)
       if (reason%code == 0) then
          chosen%film%told = 'by the closure: its range and its verdict allow for its errors'
-         return
-      end if
-      why = words_of(reason, judged)
-      tried = scene_in_nodes(chosen)
-      tried = in_memory(tried)
-      tried%spectrum%verify = .false.
-      call solve_in_memory(tried, judged, error)
-      if (allocated(error)) return
-      if (nodes_stopped(judged%status)) then
-         chosen%film%told = 'by the closure, as films in nodes stopped ('//status_name(judged%status)//'); in nodes because '//why
-         chosen%film%nodes_stopped = .true.
       else
          chosen = scene_in_nodes(chosen)
-         chosen%film%told = 'in nodes: '//why
+         chosen%film%told = 'in nodes: '//words_of(reason, judged)
       end if
    end subroutine choose_model
+
+   !> The scene that is solved where films in nodes stop.
+   pure type(scene_t) function closure_instead(scene, in_nodes, stopped) result(chosen)
+      !> With the automatic model, and as it was to be solved in nodes
+      type(scene_t), intent(in) :: scene
+      type(scene_t), intent(in) :: in_nodes
+      !> How films in nodes stopped
+      character(*), intent(in) :: stopped
+
+      chosen = scene
+      chosen%film%automatic = .false.
+      chosen%film%nodes_stopped = .true.
+      chosen%film%told = 'by the closure, as films in nodes stopped ('//stopped//'); in nodes because '// &
+                         in_nodes%film%told(len('in nodes: ') + 1:)
+   end function closure_instead
 
    !> The scene with its films in nodes, from rest.
    pure type(scene_t) function scene_in_nodes(scene) result(in_nodes)
@@ -159,38 +158,5 @@ contains
 
       words = short_text(100.0_dp*share, 2)//' %'
    end function percent
-
-   !> A scene that writes nothing.
-   pure type(scene_t) function in_memory(scene) result(quiet)
-      type(scene_t), intent(in) :: scene
-
-      quiet = scene
-      quiet%gearbox = ''
-      quiet%output%series = .false.
-      quiet%output%profiles = .false.
-   end function in_memory
-
-   !> Solve a scene and judge it, as a single scene is, without any file.
-   subroutine solve_in_memory(scene, judged, error)
-      !> Its films are in nodes or those of the closure, and it writes no series
-      type(scene_t), intent(in) :: scene
-      type(judged_scene_t), intent(out) :: judged
-      !> Set if there is not enough memory
-      type(error_t), allocatable, intent(out) :: error
-      type(sample_recorder_t) :: recorder
-      type(window_record_t) :: record
-      type(unwatched_t) :: nobody
-      type(ending_t) :: ending
-      type(checkpoint_t) :: state
-
-      judged%resolved = resolve(scene)
-      associate (problem => judged%resolved%problem)
-         call recorder%open(scene, problem, '', 0, error)
-         if (allocated(error)) return
-         call solve_scene(scene, problem, recorder, nobody, state, judged%nodal, ending, record, error)
-      end associate
-      call note_ending(ending, judged)
-      if (.not. allocated(error)) call judge(scene, recorder, record, ending, judged, error)
-   end subroutine solve_in_memory
 
 end module automatic_model

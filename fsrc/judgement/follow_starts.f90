@@ -6,22 +6,22 @@
 !> followed on beyond its end like a start.
 module follow_starts
    use carried_loads, only: counts_as, thinnest_film
+   use classify_group, only: classify_windows, follow_irregular
    use coexisting_motions, only: coexisting_motions_t, told_motion_t
    use engine, only: ending_t, motion_state_t, request_t, status_of_stop, state_of_start
    use errors, only: error_t
-   use fine_window, only: solve_whole_window, window_t
-   use irregular_motion, only: follow_irregular
    use irregular_states, only: are_of_one_motion, compared_after, compared_periods
    use judged_scene, only: judged_scene_t
    use kinds, only: dp
    use known_motions, only: reached_motion
    use many_motions, only: solve_motions
    use motion_start, only: chosen_starts, motion_start_t, motion_starts, one_start_reason, start_count, start_is_given
-   use node_extremes, only: seen_films
+   use node_extremes, only: seen_films, seen_quantities
    use periodic_orbit, only: attracting_period, map_states, periodic_orbit_t
    use problem, only: of_film, of_velocity, problem_t, state_size
-   use rattle_class, only: class_irregular, class_irregular_so_far, note_orbit, rattle_verdict_t
-   use prepared_scene, only: request_of
+   use rattle_class, only: class_irregular, class_irregular_so_far, note_orbit
+   use prepared_scene, only: prepare, prepared_scene_t, request_of
+   use scene_group, only: scene_group_t, solve_group
    use scene_orbit, only: nearby_orbit, orbit_ahead
    use scene_status, only: is_success, status_complete
    use scene_types, only: scene_t
@@ -76,11 +76,9 @@ module follow_starts
 contains
 
    !> Find the motions that the starts of a judged scene lead to. After a signal to stop the answer is of no use.
-   subroutine find_all_motions(scene, ending, started, judged, error)
+   subroutine find_all_motions(scene, started, judged, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
-      !> How its own motion ended
-      type(ending_t), intent(in) :: ending
       !> When the run began, on the clock of wall_seconds [s]
       real(dp), intent(in) :: started
       !> Its judged scene; the other motions are added
@@ -97,7 +95,7 @@ contains
          coexisting%start_is_given = start_is_given(problem)
          coexisting%one_start_reason = one_start_reason(problem, scene%solver%method)
          count = start_count(problem, scene%solver)
-         call note_own_motion(scene, ending, count > 1, judged, settled)
+         call note_own_motion(scene, judged%ending, count > 1, judged, settled)
          if (count > 1) then
             starts = motion_starts(problem, count, seed)
             call begin_starts(problem, starts(2:), coexisting%motions(1), followers)
@@ -399,6 +397,7 @@ contains
       type(periodic_orbit_t) :: orbit
       type(told_motion_t) :: told
       type(settled_motion_t) :: one
+      type(scene_group_t) :: group
       type(ending_t) :: here
       real(dp) :: distance, limit
       integer :: i
@@ -420,7 +419,7 @@ contains
          told%period = orbit%period
          told%state = orbit%state
          told%floquet_modulus = abs(orbit%multipliers(1))
-         call judge_motion(scene, judged, motion_state_t(numbers=orbit%state), orbit%period, told, here, error)
+         call judge_motion(prepare(scene), motion_state_t(numbers=orbit%state), orbit%period, told, group, error)
          if (allocated(error) .or. told%class == 0) return
          one = settled_of(problem, told)
          do i = 1, size(settled)
@@ -447,34 +446,36 @@ contains
    end function distance_of_periods
 
    !> Class and severity of a motion, over some periods from a state on it.
-   subroutine judge_motion(scene, judged, start, periods, told, ending, error)
-      type(scene_t), intent(in) :: scene
-      type(judged_scene_t), intent(in) :: judged
+   subroutine judge_motion(scene, start, periods, told, group, error)
+      type(prepared_scene_t), intent(in) :: scene
       type(motion_state_t), intent(in) :: start
       integer, intent(in) :: periods
       !> With its period; class 0 where it could not be solved
       type(told_motion_t), intent(inout) :: told
-      !> How it ended
-      type(ending_t), intent(out) :: ending
+      !> With its solution
+      type(scene_group_t), intent(inout) :: group
       type(error_t), allocatable, intent(out) :: error
-      type(window_t) :: window
-      type(rattle_verdict_t) :: verdict
+      type(prepared_scene_t) :: one(1)
       type(vibration_severity_t) :: severity
       type(window_extremes_t) :: extremes
+      logical, parameter :: wants(seen_quantities) = .true.
 
       told%class = 0
-      window%periods = periods
-      window%samples_per_period = scene%solver%samples_per_period()
-      call solve_whole_window(scene, judged%resolved%problem, start, scene%solver%accuracy, periods, &
-                              judged%resolved%noise_floor, window, verdict, ending, error)
+      one(1) = scene
+      one%request%periods = periods
+      one%request%sampled_periods = periods
+      one%request%until_steady = .false.
+      call solve_group(one, [start], wants, group)
+      if (.not. is_success(group%endings(1)%status)) return
+      call classify_windows(one, group, error)
       if (allocated(error)) return
-      if (.not. is_success(ending%status)) return
-      call note_orbit(verdict, told%period)
-      told%class = verdict%class
-      severity = severity_of_record(window%record, judged%resolved%problem%frequency)
-      extremes = extremes_of_record(window%record)
-      told%verdict = verdict_of(judged%resolved%problem, extremes, &
-                                impacts_of_record(window%record, judged%resolved%problem%frequency))
+      associate (record => group%records(1), problem => scene%resolved%problem)
+         call note_orbit(group%verdicts(1), told%period)
+         told%class = group%verdicts(1)%class
+         severity = severity_of_record(record, problem%frequency)
+         extremes = extremes_of_record(record)
+         told%verdict = verdict_of(problem, extremes, impacts_of_record(record, problem%frequency))
+      end associate
       told%acceleration_rms = severity%acceleration_rms
       told%film_force_rms = severity%film_force_rms
       told%film_minimum = extremes%lowest(seen_films(1))%value
@@ -493,20 +494,16 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(told_motion_t) :: told
       type(settled_motion_t) :: without_states
-      type(ending_t) :: endings(1)
-      type(rattle_verdict_t) :: verdicts(1)
-      integer :: repeat_after(1)
+      type(scene_group_t) :: group
 
       is_none = .true.
-      call judge_motion(scene, judged, state, scene%spectrum%periods, told, endings(1), error)
+      call judge_motion(prepare(scene), state, scene%spectrum%periods, told, group, error)
       if (allocated(error)) return
       if (told%class /= class_irregular_so_far) return
-      verdicts%class = told%class
-      repeat_after = 0
-      call follow_irregular([judged%resolved%problem], endings, verdicts, repeat_after)
-      if (must_stop() .or. verdicts(1)%class /= class_irregular) return
+      call follow_irregular([prepare(scene)], group)
+      if (must_stop() .or. group%verdicts(1)%class /= class_irregular) return
       told%class = class_irregular
-      told%state = endings(1)%numbers
+      told%state = group%endings(1)%numbers
       allocate (without_states%states(size(told%state), 0))
       settled = [settled, without_states]
       judged%coexisting%motions = [judged%coexisting%motions, told]

@@ -3,41 +3,17 @@ module judged_scene
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use coexisting_motions, only: coexisting_motions_t, loudest_motion, quietest_motion, unknown_verdict
    use verification, only: verification_t
-   use engine, only: motion_count_t
+   use engine, only: ending_t
    use force, only: inertia_ratio
    use force_signal, only: force_signal_t
    use impacts, only: impact_count_t
    use kinds, only: dp
    use vibration_severity, only: vibration_severity_t
    use nodal_step, only: nodal_choice_t
-   use node_extremes, only: extreme_t, seen_acceleration, seen_films, seen_loads, seen_position, seen_pressure, seen_velocity
+   use node_extremes, only: seen_acceleration, seen_films, seen_loads, seen_position, seen_pressure, seen_velocity
    use nodal_orbit, only: orbit_unasked
    use periodic_orbit, only: orbit_stability, periodic_orbit_t
-   use quantities, only: quantity_acceleration_error, quantity_acceleration_kurtosis, quantity_acceleration_maximum, &
-      quantity_acceleration_maximum_error, quantity_acceleration_minimum, quantity_acceleration_minimum_error, &
-      quantity_acceleration_rms, quantity_alpha_p_maximum, quantity_verified, quantity_crest_factor, quantity_damping_ratio, &
-      quantity_deflection, quantity_deflection_share, quantity_dissipated_energy, quantity_dissipated_power, &
-      quantity_double_sided, quantity_drag_bearing, quantity_drag_churning, quantity_drag_synchroniser, quantity_drag_torque, &
-      quantity_gear_acceleration_maximum, quantity_gear_acceleration_rms, quantity_inertia_ratio, quantity_evaluations, &
-      quantity_film_error, quantity_film_force_rms, quantity_film_maximum_error, quantity_film_minimum_error, &
-      quantity_film_regime, quantity_gear_position_maximum, quantity_gear_position_minimum, quantity_impacts_verified, &
-      quantity_impact_periods, quantity_reversal, quantity_separation, quantity_unloaded_share, quantity_verdict, &
-      quantity_verdict_verified, quantity_first_harmonic, quantity_floquet_modulus, quantity_floquet_multipliers, &
-      quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, quantity_harmonic_errors, quantity_harmonics, &
-      quantity_irregular_fraction, quantity_iterations_per_step, quantity_irregular_fraction_is_bound, &
-      quantity_lyapunov_exponent, quantity_law_contradicted, quantity_closure_range, quantity_film_model, &
-      quantity_harmonic_count, quantity_harmonic_count_is_bound, quantity_harmonics_by_integrals, quantity_load_minimum, &
-      quantity_loudest_acceleration_rms, quantity_loudest_class, quantity_loudest_film_force_rms, quantity_loudest_film_minimum, &
-      quantity_loudest_verdict, quantity_motions, quantity_quietest_acceleration_rms, quantity_quietest_class, &
-      quantity_starts_solved, quantity_start_periods, quantity_unsettled_starts, quantity_severity_error, quantity_model_limit, &
-      quantity_natural_frequency, quantity_orbit_period, quantity_orbit_stability, quantity_periods_solved, &
-      quantity_pressure_maximum, quantity_pressure_error, quantity_pressure_resolved, quantity_film_at_pressure_maximum, &
-      quantity_central_film, quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, &
-      quantity_sampling_sufficient, quantity_series_coarse, quantity_status, quantity_steady_film, quantity_steps, &
-      quantity_steps_cut, quantity_stiffness_matters, quantity_velocity_maximum, quantity_velocity_minimum, &
-      quantity_window_periods, quantities_of_contacts, told_film_minimum, told_film_maximum, told_load_maximum, told_impacts, &
-      told_impacts_per_period, told_impact_load_maximum, told_impact_velocity_maximum, told_impact_impulse_maximum, &
-      told_impact_impulse_mean, told_impact_times, told_impact_loads, told_impact_velocities
+   use quantities
    use carried_loads, only: contact_film
    use flank_contact, only: of_central_film, of_film_at_pressure, of_pressure
    use problem, only: contact_count, has_own_position, inner_places
@@ -47,28 +23,25 @@ module judged_scene
    use prepared_scene, only: resolved_scene_t
    use scene_status, only: status_complete, status_no_rigid_film
    use scene_types, only: drag_computed, drag_t, drag_unknown
+   use settled_motion, only: settled_motion_t
    use window_extremes, only: window_extremes_t
    use window_impacts, only: double_sided_impacts, has_reversal, has_separation, verdict_of, window_impacts_t
    implicit none(type, external)
    private
 
-   !> A judged scene. Parts that nobody asks for, or that its ending leaves unknown, are those of the scene before.
+   !> A judged scene. Parts that were not requested, or that its ending leaves unknown, are as they stand here.
    type, public :: judged_scene_t
       type(resolved_scene_t) :: resolved
       !> How it is followed where its films are solved in nodes
       type(nodal_choice_t) :: nodal
       !> Whether it is told by the closure because films in nodes stopped
       logical :: nodes_stopped = .false.
-      !> Status of scene_status, when the motion got it [s] and its film there [m], and whether there is a window that was judged
+      !> How its motion ended, the status of the scene, of scene_status, and whether there is a window that was judged
+      type(ending_t) :: ending
       integer :: status = status_complete
-      real(dp) :: time = 0.0_dp, film = 0.0_dp
       logical :: judged = .false.
-      !> Flank whose film could not be followed, else 0, and its load [N]
-      integer :: lost_film = 0
-      real(dp) :: lost_load = 0.0_dp
-      !> Periods solved, and those after which their end was seen to repeat, else 0
-      integer :: periods = 0, repeats_after = 0
-      type(motion_count_t) :: count
+      !> Periods after which its end was seen to repeat, by the engine or by a search there, else 0
+      integer :: repeats_after = 0
       !> Whole periods of the window, samples of each, and whether its harmonics are integrals over the steps
       integer :: window_periods = 0, samples_per_period = 0
       logical :: harmonics_by_integrals = .false.
@@ -89,6 +62,8 @@ module judged_scene
       integer :: orbit_outcome = orbit_unasked
       !> The motions that all starts have led to, where others were followed
       type(coexisting_motions_t) :: coexisting
+      !> The same ones with all their states
+      type(settled_motion_t), allocatable :: settled(:)
    end type judged_scene_t
 
    !> Error of the largest pressure up to which it counts as resolved, twice its change by twice as many nodes [-]
@@ -124,15 +99,15 @@ contains
       case (quantity_orbit_period)
          value = real(merge(judged%orbit%period, judged%repeats_after, judged%orbit%period > 0), dp)
       case (quantity_periods_solved)
-         value = real(judged%periods, dp)
+         value = real(judged%ending%periods, dp)
       case (quantity_evaluations)
-         value = real(judged%count%evaluations, dp)
+         value = real(judged%ending%count%evaluations, dp)
       case (quantity_steps)
-         value = real(judged%count%steps, dp)
+         value = real(judged%ending%count%steps, dp)
       case (quantity_steps_cut)
-         value = real(judged%count%cuts, dp)
+         value = real(judged%ending%count%cuts, dp)
       case (quantity_iterations_per_step)
-         if (judged%count%steps > 0) value = real(judged%count%evaluations, dp)/real(judged%count%steps, dp)
+         if (judged%ending%count%steps > 0) value = real(judged%ending%count%evaluations, dp)/real(judged%ending%count%steps, dp)
       case default
          if (judged%judged) value = window_value(quantity, judged)
          ! No film of the scene's own law carries its load: that much is known of a motion that never began.
@@ -519,7 +494,7 @@ contains
       if (.not. allocated(impacts%kept)) return
       select case (told)
       case (told_impact_times)
-         list = (real(judged%periods - judged%window_periods, dp) + impacts%kept%time)/judged%resolved%problem%frequency
+         list = (real(judged%ending%periods - judged%window_periods, dp) + impacts%kept%time)/judged%resolved%problem%frequency
       case (told_impact_loads)
          list = impacts%kept%load
       case (told_impact_velocities)

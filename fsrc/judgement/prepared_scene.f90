@@ -12,8 +12,8 @@ module prepared_scene
    use regime, only: steel_tooth
    use regime_check, only: steady_alpha_p
    use rupture, only: squeeze_group
-   use scene_types, only: drag_t, excitation_t, iteration_newton, method_newmark, predictor_extrapolated, &
-                          scene_t, spectrum_choice_t, until_steady
+   use scene_types, only: drag_t, excitation_t, iteration_newton, method_newmark, predictor_extrapolated, scene_t, &
+      spectrum_choice_t, until_steady
    use taylor_step_control, only: film_weight, lienard_weight
    implicit none(type, external)
    private
@@ -61,9 +61,13 @@ module prepared_scene
       !> Code of its method, and starts whose motions are looked for
       integer :: method = 0
       integer :: starts = 1
+      !> Nodes of pressure, where its films are solved in nodes
+      integer :: nodes = 0
+      !> Whether its film force is summed with those of the other pairs of a gearbox
+      logical :: in_gearbox = .false.
    end type prepared_scene_t
 
-   public :: prepare, resolve, request_of
+   public :: prepare, with_accuracy, resolve, request_of
 
 contains
 
@@ -77,7 +81,20 @@ contains
       prepared%request = request_of(scene)
       prepared%method = scene%solver%method
       prepared%starts = scene%solver%starts
+      prepared%nodes = scene%film%nodes
+      prepared%in_gearbox = scene%gearbox /= ''
    end function prepare
+
+   !> A scene that is solved again with another accuracy of the error-controlled engine.
+   elemental type(prepared_scene_t) function with_accuracy(scene, accuracy) result(again)
+      type(prepared_scene_t), intent(in) :: scene
+      !> Relative accuracy of the film [-]
+      real(dp), intent(in) :: accuracy
+
+      again = scene
+      again%request%accuracy = accuracy
+      again%resolved%noise_floor = scene%resolved%noise_floor_at(accuracy)
+   end function with_accuracy
 
    !> Work out what follows from a scene.
    pure function resolve(scene) result(resolved)

@@ -2,21 +2,19 @@
 !> A start ends as soon as it has come to a motion that is known of its scene.
 module row_motions
    use starting_state, only: keep_by_contacts, kept_by_contacts
+   use classify_group, only: classify_windows, follow_irregular
    use coexisting_motions, only: coexisting_motions_t, told_motion_t
-   use engine, only: asks_for_same, motion_state_t, request_t
+   use engine, only: asks_for_same, motion_state_t
    use errors, only: error_t
-   use irregular_motion, only: follow_irregular
    use kinds, only: dp
-   use lyapunov, only: path_t
    use known_motions, only: are_near, known_motions_t
    use node_extremes, only: seen_films, seen_loads, seen_net_load, seen_quantities
    use periodic_orbit, only: map_states
    use problem, only: problem_t, state_size
-   use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, rattle_verdict_t
-   use prepared_scene, only: resolved_scene_t
-   use scene_group, only: classify_group, has_window, scene_group_t, solve_group
+   use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic
+   use prepared_scene, only: prepared_scene_t, with_accuracy
+   use scene_group, only: scene_group_t, solve_group
    use scene_status, only: is_success
-   use scene_types, only: spectrum_choice_t
    use settled_motion, only: known_of, near_states, same_motion, settled_motion_t
    use signals, only: must_stop
    use vibration_severity, only: severity_of_record, vibration_severity_t
@@ -54,24 +52,25 @@ module row_motions
 
 contains
 
-   !> The motion of a scene that was solved from its own start.
-   type(row_motions_t) function motion_from_rest(problem, samples_per_period, place, group) result(found)
-      !> What moves
-      type(problem_t), intent(in) :: problem
-      integer, intent(in) :: samples_per_period
+   !> The motion of a scene that was solved from its own start; none where it failed.
+   subroutine motion_from_rest(scene, place, group, told, settled)
+      type(prepared_scene_t), intent(in) :: scene
       !> Place of the scene in its group
       integer, intent(in) :: place
       !> With its class
       type(scene_group_t), intent(in) :: group
+      !> The motion as it is reported, and with its states
+      type(coexisting_motions_t), intent(out) :: told
+      type(settled_motion_t), allocatable, intent(out) :: settled(:)
 
-      allocate (found%settled(0))
+      allocate (settled(0))
       if (.not. is_success(group%endings(place)%status)) return
-      found%settled = [settled_of(problem, samples_per_period, place, group)]
-      found%told%motions = [told_of(problem, place, group, found%settled(1))]
-      found%told%motions(1)%from_own_start = .true.
-      found%told%starts_solved = 1
-      if (found%settled(1)%period == 0) found%told%unsettled_starts = 1
-   end function motion_from_rest
+      settled = [settled_of(scene%resolved%problem, scene%request%samples_per_period, place, group)]
+      told%motions = [told_of(scene%resolved%problem, place, group, settled(1))]
+      told%motions(1)%from_own_start = .true.
+      told%starts_solved = 1
+      if (settled(1)%period == 0) told%unsettled_starts = 1
+   end subroutine motion_from_rest
 
    !> A motion by its window. Where the run ended before the motion repeats within the accuracy, the states of the window tell after
    !> how many periods they come again near enough, or the periodic motion that was found next to its end. One that is irregular so
@@ -164,11 +163,9 @@ contains
 
    !> Solve some starts side by side, and add the motions that they lead to and that are not known yet. After a signal to stop
    !> the motions are of no use.
-   subroutine solve_trials(resolved, choices, requests, with_verdicts, trials, space, found, error)
-      !> Scenes of a batch, limits of their classes, and what was asked of the engine
-      type(resolved_scene_t), intent(in) :: resolved(:)
-      type(spectrum_choice_t), intent(in) :: choices(:)
-      type(request_t), intent(in) :: requests(:)
+   subroutine solve_trials(scenes, with_verdicts, trials, space, found, error)
+      !> Scenes of a batch
+      type(prepared_scene_t), intent(in) :: scenes(:)
       !> Whether the verdicts of the motions are asked for
       logical, intent(in) :: with_verdicts
       !> The starts; the first of those that lead to one motion counts
@@ -184,7 +181,8 @@ contains
       left = .true.
       do while (any(left))
          first = findloc(left, .true., dim=1)
-         together = left .and. [(asks_for_same(requests(trials(first)%scene), requests(trials(i)%scene)), i=1, size(trials))]
+         together = left .and. [(asks_for_same(scenes(trials(first)%scene)%request, scenes(trials(i)%scene)%request), &
+                                 i=1, size(trials))]
          call solve_alike(pack([(i, i=1, size(trials))], together))
          if (must_stop() .or. allocated(error)) return
          left = left .and. .not. together
@@ -195,83 +193,43 @@ contains
       !> Solve starts of scenes that ask for the same.
       subroutine solve_alike(own)
          integer, intent(in) :: own(:)
-         type(request_t) :: request
+         type(prepared_scene_t) :: tried(size(own))
          type(motion_state_t) :: starts(size(own))
          type(known_motions_t) :: known(size(own))
-         real(dp) :: noise(size(own))
          logical :: wants(seen_quantities)
          integer :: k
 
-         associate (scenes => trials(own)%scene)
-            request = requests(scenes(1))
-            request%accuracy = max(request%accuracy, enough_accuracy)
-            request%until_steady = .true.
-            request%forecast = .true.
+         associate (places => trials(own)%scene)
             do k = 1, size(own)
+               tried(k) = with_accuracy(scenes(places(k)), max(scenes(places(k))%request%accuracy, enough_accuracy))
+               tried(k)%request%until_steady = .true.
+               tried(k)%request%forecast = .true.
+               tried(k)%request%impact_limit = merge(tried(k)%spectrum%impact_limit, 0.0_dp, with_verdicts)
                starts(k)%numbers = trials(own(k))%state
-               known(k) = known_of(resolved(scenes(k))%problem, found(scenes(k))%settled)
-               noise(k) = resolved(scenes(k))%noise_floor_at(request%accuracy)
+               known(k) = known_of(tried(k)%resolved%problem, found(places(k))%settled)
             end do
             wants = .false.
             wants(seen_films(1)) = .true.
             wants([seen_loads(1), seen_net_load]) = with_verdicts
-            call solve_group(resolved(scenes)%problem, starts, request, wants, space, &
-                             merge(choices(scenes)%impact_limit, 0.0_dp, with_verdicts), known)
-            call classify_group(resolved(scenes)%problem, choices(scenes), noise, request, space)
-            if (allocated(space%error)) call move_alloc(space%error, error)
+            call solve_group(tried, starts, wants, space, known)
+            call classify_windows(tried, space, error)
             if (must_stop() .or. allocated(error)) return
-            call follow_new(resolved(scenes)%problem, scenes, trials(own)%is_own, found, space)
+            ! Motions that are off their harmonics: the ones from rest, and others where all that are known repeat.
+            call follow_irregular(tried, space, [(trials(own(k))%is_own .or. all(found(places(k))%settled%period > 0), &
+                                                  k=1, size(own))])
             do k = 1, size(own)
-               call add_motion(resolved(scenes(k))%problem, request%samples_per_period, k, space, trials(own(k)), found(scenes(k)))
+               call add_motion(tried(k), k, space, trials(own(k)), found(places(k)))
             end do
          end associate
       end subroutine solve_alike
 
    end subroutine solve_trials
 
-   !> Follow the motions that are off their harmonics: the ones from rest, and others where all that are known repeat.
-   subroutine follow_new(problems, scenes, are_own, found, space)
-      type(problem_t), intent(in) :: problems(:)
-      !> Places of their scenes in the batch
-      integer, intent(in) :: scenes(:)
-      !> Whether they go on with the one from rest
-      logical, intent(in) :: are_own(:)
-      type(row_motions_t), intent(in) :: found(:)
-      type(scene_group_t), intent(inout) :: space
-      type(rattle_verdict_t), allocatable :: verdicts(:)
-      type(path_t), allocatable :: paths(:)
-      integer, allocatable :: new(:), repeat_after(:)
-      integer :: k
-
-      new = pack([(k, k=1, size(problems))], [(is_new(k), k=1, size(problems))])
-      if (size(new) == 0) return
-      allocate (verdicts, source=space%verdicts(new))
-      repeat_after = space%repeat_after(new)
-      allocate (paths(size(new)))
-      call follow_irregular(problems(new), space%endings(new), verdicts, repeat_after, paths)
-      space%verdicts(new) = verdicts
-      space%repeat_after(new) = repeat_after
-      space%paths(new) = paths
-
-   contains
-
-      logical function is_new(place)
-         integer, intent(in) :: place
-
-         is_new = .false.
-         if (.not. has_window(space%endings(place))) return
-         if (space%verdicts(place)%class /= class_irregular_so_far) return
-         is_new = are_own(place) .or. all(found(scenes(place))%settled%period > 0)
-      end function is_new
-
-   end subroutine follow_new
-
    !> Count a start, and add its motion if that is none of those that are known: one that repeats within the accuracy, or next to
    !> whose end a motion that repeats was found, and whose states are others, or an irregular one where all others repeat. Two
    !> irregular ones cannot be told apart.
-   subroutine add_motion(problem, samples_per_period, place, group, trial, found)
-      type(problem_t), intent(in) :: problem
-      integer, intent(in) :: samples_per_period
+   subroutine add_motion(scene, place, group, trial, found)
+      type(prepared_scene_t), intent(in) :: scene
       !> Place of the start in its group
       integer, intent(in) :: place
       type(scene_group_t), intent(in) :: group
@@ -281,14 +239,14 @@ contains
       type(told_motion_t) :: told
       integer :: known, i
 
-      associate (ending => group%endings(place))
+      associate (ending => group%endings(place), problem => scene%resolved%problem)
          if (.not. (trial%is_own .or. trial%goes_on)) found%told%starts_solved = found%told%starts_solved + 1
          found%told%extra_periods = found%told%extra_periods + ending%periods
          known = ending%known
          trial%settled = ending%orbit > 0
          trial%is_next_to_one = .false.
          if (known == 0 .and. is_success(ending%status)) then
-            motion = settled_of(problem, samples_per_period, place, group)
+            motion = settled_of(problem, scene%request%samples_per_period, place, group)
             if (.not. trial%settled .and. motion%period > 0 .and. group%verdicts(place)%class == class_subharmonic) then
                trial%is_next_to_one = motion%rms_is_rough
                trial%settled = .not. trial%is_next_to_one

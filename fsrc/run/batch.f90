@@ -1,6 +1,6 @@
 !> All scenes of a call: everything is checked before anything runs.
 module batch
-   use automatic_model, only: choose_model
+   use automatic_model, only: choose_model, closure_instead
    use, intrinsic :: iso_fortran_env, only: error_unit
    use command_line, only: command_t
    use engine, only: checkpoint_t
@@ -20,7 +20,7 @@ module batch
    use run_sweep, only: run_sweep_task
    use scene_report, only: law_sentence, resolved_lines
    use scene_status, only: is_success, status_complete, status_interrupted
-   use scene_types, only: method_newmark, scene_t, task_film, task_motion, task_sweep
+   use scene_types, only: method_newmark, model_resolved, scene_t, task_film, task_motion, task_sweep
    use signals, only: caught_signal
    use text, only: integer_text
    use text_output, only: end_turn, lock_texts, put_line, put_text, share_output, speak_for, unlock_texts
@@ -351,6 +351,12 @@ contains
       if (scene%film%automatic .and. scene%task == task_motion) then
          call choose_model(scene, chosen, error)
          if (.not. allocated(error)) call load_state(chosen, state, error)
+         ! Where films in nodes stopped, the earlier run went by the closure.
+         if (allocated(error) .and. chosen%film%model == model_resolved) then
+            deallocate (error)
+            chosen = closure_instead(scene, chosen, 'in the earlier run')
+            call load_state(chosen, state, error)
+         end if
       else if (scene%task == task_motion) then
          call load_state(scene, state, error)
       else

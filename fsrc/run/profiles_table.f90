@@ -88,7 +88,8 @@ contains
          x_unit = sqrt(film%radius*film%closure%film_unit)
          do i = 1, size(profile%pressures)
             call thicken(film%closure, profile%pressures(i), thickening, slope)
-            rows(:, i) = [(real(judged%periods - judged%window_periods, dp) + profile%time)/judged%resolved%problem%frequency, &
+            rows(:, i) = [(real(judged%ending%periods - judged%window_periods, dp) + profile%time)/ &
+                          judged%resolved%problem%frequency, &
                           real(profile%contact, dp), profile%load*film%closure%load_unit, grid%place(i)*x_unit, &
                           profile%pressures(i)*film%closure%pressure_unit, profile%films(i)*film%closure%film_unit, &
                           film%viscosity*exp(thickening), &

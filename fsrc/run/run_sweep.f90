@@ -4,11 +4,10 @@ module run_sweep
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use clock, only: wall_seconds
    use derived_scene, only: derive
-   use engine, only: ending_t, motion_state_t, start_of
+   use engine, only: motion_state_t, start_of
    use errors, only: error_t
-   use fine_window, only: solve_whole_window, window_t
    use finished_files, only: place_files
-   use judge_scene, only: follow_one, note_record
+   use judge_group, only: judgement_space_t
    use judged_scene, only: judged_scene_t, quantity_value
    use key_table, only: keys
    use kinds, only: dp, int64
@@ -16,28 +15,24 @@ module run_sweep
    use output_place, only: log_path, result_path, summary_path
    use starting_state, only: keep_by_contacts, kept_by_contacts
    use problem, only: of_film, of_velocity
-   use periodic_orbit, only: attracting_period, find_periodic_orbit
    use progress, only: progress_t
-   use quantities, only: quantities_told_in, quantity_model_limit, quantity_table
-   use rattle_class, only: note_orbit
-   use prepared_scene, only: resolve
+   use quantities, only: need_count, needs_motion_verdicts, needs_orbit, needs_starts, needs_verification, &
+      needs_verified_impacts, quantities_told_in, quantity_model_limit, quantity_table
+   use prepared_scene, only: prepare, prepared_scene_t
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
    use scene_report, only: law_sentence, report_head
+   use scene_solution, only: solve_and_judge
    use scene_status, only: is_success, status_complete, status_interrupted, status_not_written, status_sentence
    use scene_summary, only: add_head, add_results
    use scene_types, only: scene_t, set_number
    use signals, only: caught_signal
    use summary_file, only: summary_t
    use text, only: counted, integer_text, short_text
-   use text_output, only: lock_texts, unlock_texts
    use word_list, only: word_t
    implicit none(type, external)
    private
-
-   !> A periodic motion farther away than this is another one [-].
-   real(dp), parameter :: orbit_nearness = 1.0e-3_dp
 
    !> What a motion hands to the next one.
    type, public :: carried_state_t
@@ -71,6 +66,7 @@ contains
       type(result_writer_t) :: writer
       type(error_t), allocatable :: close_error, summary_error
       type(judged_scene_t) :: judged
+      type(judgement_space_t) :: space
       character(column_name_bytes), allocatable :: names(:)
       character(column_unit_bytes), allocatable :: units(:)
       type(carried_state_t) :: state
@@ -90,7 +86,7 @@ contains
       beyond_model = 0
       do i = 1, size(scene%sweep%values)
          if (allocated(error)) exit
-         call solve_value(swept_scene(scene, scene%sweep%values(i)), state, judged, error)
+         call solve_value(swept_scene(scene, scene%sweep%values(i)), state, space, judged, error)
          ! A motion under way when the signal came may be half judged.
          if (caught_signal() /= 0) then
             status = status_interrupted
@@ -190,21 +186,25 @@ contains
    end function sweep_row
 
    !> Steady motion of one value, from the state given; that state becomes the one for the next value.
-   subroutine solve_value(scene, state, judged, error)
+   subroutine solve_value(scene, state, space, judged, error)
       !> Checked scene with that value
       type(scene_t), intent(in) :: scene
       !> State to start from; no film: the steady film at rest
       type(carried_state_t), intent(inout) :: state
+      !> Work space
+      type(judgement_space_t), intent(inout) :: space
       !> The motion
       type(judged_scene_t), intent(out) :: judged
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
+      type(prepared_scene_t) :: prepared(1)
+      type(judged_scene_t) :: judged_values(1)
       type(motion_state_t) :: start
-      type(ending_t) :: ending
-      type(window_t) :: window
 
-      judged%resolved = resolve(scene)
-      associate (problem => judged%resolved%problem)
+      prepared(1) = prepare(scene)
+      prepared%request%until_steady = .true.
+      judged%resolved = prepared(1)%resolved
+      associate (problem => prepared(1)%resolved%problem)
          judged%status = problem%contact%film%status_without_load
          if (state%film > 0.0_dp) then
             problem%initial_film = state%film
@@ -213,28 +213,23 @@ contains
          if (.not. problem%initial_film > 0.0_dp) return
          start = start_of(problem)
          if (state%film > 0.0_dp) call keep_by_contacts(problem, state%kept, start%numbers)
-         window%periods = scene%spectrum%periods
-         window%samples_per_period = scene%solver%samples_per_period()
-         call solve_whole_window(scene, problem, start, scene%solver%accuracy, scene%solver%periods, &
-                                 judged%resolved%noise_floor, window, judged%rattle, ending, error, until_steady=.true.)
-         judged%status = ending%status
-         judged%periods = ending%periods
+         call solve_and_judge(prepared, [start], needs_of_values(), space, judged_values, error)
+         judged = judged_values(1)
          state = carried_state_t()
-         if (.not. is_success(ending%status)) return
-         state%film = ending%numbers(of_film)
-         state%velocity = ending%numbers(of_velocity)
-         state%kept = kept_by_contacts(problem, ending%numbers)
+         if (.not. is_success(judged%status)) return
+         state%film = judged%ending%numbers(of_film)
+         state%velocity = judged%ending%numbers(of_velocity)
+         state%kept = kept_by_contacts(problem, judged%ending%numbers)
       end associate
-      judged%judged = .not. allocated(error)
-      if (.not. judged%judged) return
-      judged%repeats_after = ending%orbit
-      call unlock_texts()
-      judged%orbit = find_periodic_orbit(judged%resolved%problem, ending%numbers, orbit_nearness)
-      call lock_texts()
-      call note_orbit(judged%rattle, max(ending%orbit, attracting_period(judged%orbit)))
-      call follow_one(ending, judged)
-      call note_record(window%record, judged)
    end subroutine solve_value
+
+   !> What has to be found for the values of a sweep; the harmonics of all are computed.
+   pure function needs_of_values() result(needed)
+      logical :: needed(need_count)
+
+      needed = .true.
+      needed([needs_verification, needs_verified_impacts, needs_orbit, needs_starts, needs_motion_verdicts]) = .false.
+   end function needs_of_values
 
    !> How the sweep ended, whose motions may have failed.
    pure function ending_sentence(scene, failed, status) result(sentence)

@@ -15,14 +15,14 @@ module scene_report
    use output_place, only: has_motions_table, motions_path, profiles_path, result_path, summary_path
    use problem, only: reference_film
    use quantities, only: a_code, a_flag, part_cost, part_scene, part_window, quantity_closure_range, quantity_deflection_share, &
-                         quantity_iterations_per_step, quantity_model_limit, quantity_orbit_stability, quantity_rattle_class, &
-                         quantity_t, quantity_table, quantity_verdict, quantity_verdict_verified, quantity_word
+      quantity_iterations_per_step, quantity_model_limit, quantity_orbit_stability, quantity_rattle_class, quantity_t, &
+      quantity_table, quantity_verdict, quantity_verdict_verified, quantity_word
    use film_pressure, only: exact_pressure
    use rattle_class, only: class_irregular, class_irregular_so_far
    use regime, only: contact_deflection, deflection_limit, film_elastohydrodynamic, film_iso_viscous, film_regime, &
-                     hertzian_pressure, rigid_limit, steel_tooth
-   use regime_check, only: check_regime, closure_range_sentence, fitting_law, model_limit, model_limit_sentence, outside_closure, &
-                           regime_sentence, regime_verdict_t, within_model
+      hertzian_pressure, rigid_limit, steel_tooth
+   use regime_check, only: check_regime, closure_range_sentence, fitting_law, model_limit, model_limit_sentence, &
+      outside_closure, regime_sentence, regime_verdict_t, within_model
    use prepared_scene, only: resolve, resolved_scene_t
    use scene_status, only: is_success, status_name, status_sentence
    use scene_types, only: drag_computed, method_newmark, model_published, scene_t, speed_mean, task_film
@@ -299,17 +299,17 @@ contains
       integer :: part
 
       iterations = 0.0_dp
-      if (judged%count%steps > 0) iterations = quantity_value(quantity_iterations_per_step, judged)
+      if (judged%ending%count%steps > 0) iterations = quantity_value(quantity_iterations_per_step, judged)
       if (judged%judged) call log%line('  '//verdict_sentence(judged))
-      call log%line('  '//integer_text(judged%count%steps)//' steps in '//short_text(solve_seconds, 3)//' s, '// &
-                    short_text(iterations, 3)//' iterations a step, '//integer_text(judged%count%cuts)// &
+      call log%line('  '//integer_text(judged%ending%count%steps)//' steps in '//short_text(solve_seconds, 3)//' s, '// &
+                    short_text(iterations, 3)//' iterations a step, '//integer_text(judged%ending%count%cuts)// &
                     ' steps cut where the film law had no value')
       if (.not. is_success(judged%status)) then
          film = ', without a film to start from'
-         if (judged%film > 0.0_dp) film = ', film '//micrometres(judged%film)//' um'
-         if (judged%lost_film > 0) film = film//' on the '//trim(merge('drive', 'coast', judged%lost_film == 1))// &
-            ' flank under M = '//short_text(judged%lost_load/judged%resolved%problem%contact%film%closure%load_unit, 3)
-         call log%line('  '//status_name(judged%status)//' at t = '//short_text(judged%time, 6)//' s'//film//': '// &
+         if (judged%ending%film > 0.0_dp) film = ', film '//micrometres(judged%ending%film)//' um'
+         if (judged%ending%lost_film > 0) film = film//' on the '//trim(merge('drive', 'coast', judged%ending%lost_film == 1))// &
+            ' flank under M = '//short_text(judged%ending%lost_load/judged%resolved%problem%contact%film%closure%load_unit, 3)
+         call log%line('  '//status_name(judged%status)//' at t = '//short_text(judged%ending%time, 6)//' s'//film//': '// &
                        status_sentence(judged%status))
       end if
       if (judged%judged) call report_window(log, scene, judged)

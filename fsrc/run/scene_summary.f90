@@ -9,9 +9,8 @@ module scene_summary
    use kinds, only: dp, int64
    use nodal_orbit, only: orbit_sentence
    use quantities, only: a_code, a_count, a_flag, a_list, part_class, part_cost, part_errors, part_spectrum, part_orbit, &
-      part_regime, &
-                      part_scene, part_window, quantity_code, quantity_film_regime, quantity_harmonics, quantity_law_contradicted, &
-                         quantity_orbit_period, quantity_t, quantity_table, quantity_word
+      part_regime, part_scene, part_window, quantity_code, quantity_film_regime, quantity_harmonics, quantity_law_contradicted, &
+      quantity_orbit_period, quantity_t, quantity_table, quantity_word
    use result_checksum, only: checksum_of_new_result
    use scene_report, only: acceleration_words, speed_meaning, verdict_sentence
    use scene_status, only: is_success, status_name, status_no_rigid_film, status_not_written, status_sentence
@@ -49,7 +48,7 @@ contains
       integer :: i
 
       if (judged%judged) call summary%add('verdict_text', verdict_sentence(judged))
-      call add_head(summary, scene, judged%status, judged%time)
+      call add_head(summary, scene, judged%status, judged%ending%time)
       call add_results(summary, results, judged%status)
       do i = 1, merge(0, size(motions), judged%status == status_not_written)
          call summary%add('motions_checksum', checksum_of_new_result(motions(i)%text))
@@ -78,7 +77,8 @@ contains
          if (orbit_sentence(judged%orbit_outcome) /= '') call summary%add('orbit_text', orbit_sentence(judged%orbit_outcome))
          call add_part(summary, judged, part_regime)
       end if
-      if (.not. is_success(judged%status) .and. judged%film > 0.0_dp) call summary%add('film_at_status_time', judged%film)
+      if (.not. is_success(judged%status) .and. judged%ending%film > 0.0_dp) &
+         call summary%add('film_at_status_time', judged%ending%film)
       if (judged%status == status_no_rigid_film) then
          call summary%add('film_regime', &
                           quantity_word(quantity_film_regime, nint(quantity_value(quantity_film_regime, judged))))

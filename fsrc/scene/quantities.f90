@@ -15,7 +15,7 @@ module quantities
                                  needs_coast_film_range = 8, needs_position_range = 9, needs_deflection = 10, &
                                  needs_spectrum = 11, needs_verification = 12, needs_impacts = 13, needs_verified_impacts = 14, &
                                  needs_orbit = 15, needs_closure_range = 16, needs_starts = 17, needs_motion_verdicts = 18, &
-                                 need_count = 18
+                                 needs_multipliers = 19, need_count = 19
 
    !> Parts of the summary, in their order.
    integer, parameter :: part_scene = 1, part_window = 2, part_spectrum = 3, part_class = 4, part_errors = 5, &
@@ -374,12 +374,12 @@ module quantities
          'Errors of the harmonics.'), &
       quantity_t(quantity_orbit_period, 'orbit_period', '-', a_count, part_orbit, needs_orbit, 'summary sweep campaign', &
          'Periods of the force after which the motion repeats; 0 where that is not known.'), &
-      quantity_t(quantity_orbit_stability, 'orbit_stability', '-', a_code, part_orbit, needs_verification, 'summary sweep', &
+      quantity_t(quantity_orbit_stability, 'orbit_stability', '-', a_code, part_orbit, needs_multipliers, 'summary sweep', &
          'What the Floquet multipliers say of the periodic motion.', &
          'stable|stable, period doubling near|stable, fold near|stable, torus near|unstable', first_code=1), &
-      quantity_t(quantity_floquet_multipliers, 'floquet_multipliers', '-', a_list, part_orbit, needs_verification, 'summary', &
+      quantity_t(quantity_floquet_multipliers, 'floquet_multipliers', '-', a_list, part_orbit, needs_multipliers, 'summary', &
          'What a periodic motion leaves of a disturbance: real and imaginary part of each, the larger first.'), &
-      quantity_t(quantity_floquet_modulus, 'floquet_modulus', '-', a_number, part_orbit, needs_verification, 'sweep', &
+      quantity_t(quantity_floquet_modulus, 'floquet_modulus', '-', a_number, part_orbit, needs_multipliers, 'sweep', &
          'Modulus of the largest Floquet multiplier.'), &
       quantity_t(quantity_pressure_maximum, 'pressure_maximum', 'Pa', a_number, part_regime, needs_regime, 'summary campaign', &
          'Largest pressure of the Reynolds film over the window, where it exists; of an elastohydrodynamic film by its closure.'), &
@@ -494,6 +494,17 @@ contains
 
       needed = needs_of([quantity_closure_range, quantity_verdict])
    end function needs_of_choice
+
+   !> What has to be found for the summary of a single scene.
+   pure function needs_of_summary(verified) result(needed)
+      !> Whether the scene is verified; only then its periodic motion is looked for
+      logical, intent(in) :: verified
+      logical :: needed(need_count)
+
+      needed = .true.
+      needed([needs_verification, needs_verified_impacts, needs_multipliers]) = verified
+      needed([needs_orbit, needs_starts, needs_motion_verdicts]) = .false.
+   end function needs_of_summary
 
    !> Whether some quantities ask for the scene to be solved again, tighter.
    pure logical function asks_to_verify(quantities)

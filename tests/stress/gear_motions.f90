@@ -4,7 +4,6 @@ module gear_motions
    use campaign_axis, only: campaign_axis_t
    use completed_scene, only: complete_scene
    use coexisting_motions, only: coexisting_motions_t
-   use engine, only: ending_t
    use errors, only: error_t, fault_list_t
    use follow_starts, only: find_all_motions
    use judged_scene, only: judged_scene_t
@@ -18,8 +17,9 @@ module gear_motions
    use scene_reader, only: override_t, read_scenes
    use scene_status, only: is_success
    use scene_types, only: scene_t, task_campaign, task_motion
-   use solve_chunk, only: chunk_space_t, solve_scenes
-   use told_summary, only: solve_and_judge
+   use judge_group, only: judgement_space_t
+   use solve_chunk, only: solve_scenes
+   use scene_solution, only: solve_in_memory
    use varied_keys, only: find_varied_key, is_valid_scene, set_varied_keys
    implicit none(type, external)
    private
@@ -134,7 +134,6 @@ contains
       logical, intent(out) :: judged
       type(scene_t) :: scene
       type(judged_scene_t) :: result
-      type(ending_t) :: ending
       type(error_t), allocatable :: error
 
       scene = drawn%scene
@@ -143,14 +142,14 @@ contains
       scene%solver%starts = starts_alone
       scene%solver%periods = 200
       scene%solver%kept_per_period = 512
-      call solve_and_judge(scene, drawn%resolved, result, ending, error)
+      call solve_in_memory(scene, result, error)
       judged = .not. allocated(error) .and. is_success(result%status) .and. result%judged
       periods = 0
       if (.not. judged) return
-      call find_all_motions(scene, ending, 0.0_dp, result, error)
+      call find_all_motions(scene, 0.0_dp, result, error)
       judged = .not. allocated(error)
       told = result%coexisting
-      periods = [result%periods, told%extra_periods]
+      periods = [result%ending%periods, told%extra_periods]
    end subroutine motions_told
 
    !> What the row in the middle of a small grid over speed and temperature tells.
@@ -161,7 +160,7 @@ contains
       type(scene_t) :: scene
       type(sample_plan_t) :: plan
       type(campaign_axis_t) :: axes(size(grid_steps))
-      type(chunk_space_t), allocatable :: space
+      type(judgement_space_t), allocatable :: space
       type(error_t), allocatable :: error
       character(:), allocatable :: message
       real(dp), allocatable :: rows(:, :)

@@ -6,20 +6,22 @@
 !> Outcomes: diverged (a status other than complete), wrong number of reversals, false harmonics (another class,
 !> or another number of lines), wrong amplitudes (a line off by more than 5 % of the largest), right.
 program newmark_outcomes
-   use engine, only: ending_t, motion_count_t, request_t, start_of
+   use engine, only: motion_count_t, request_t, start_of
    use errors, only: error_t, fault_list_t
    use film_law, only: film_load
-   use fine_window, only: solve_whole_window, window_t
+   use classify_group, only: classify_windows
    use force, only: force_of_period
    use kinds, only: dp
    use newmark, only: advance_period, newmark_state_t, start_motion
    use random_scenes, only: drawn_scene_t
    use rattle_class, only: classify, rattle_verdict_t
-   use prepared_scene, only: resolve
+   use prepared_scene, only: resolve, prepare, prepared_scene_t
    use scene_reader, only: override_t, read_scenes
    use scene_types, only: scene_t
    use scene_status, only: is_success, status_complete
    use text, only: real_text
+   use node_extremes, only: seen_quantities
+   use scene_group, only: scene_group_t, solve_group
    implicit none(type, external)
 
    !> Octaves of steps a period, four values in each, from this one on; two values of eps a decade.
@@ -82,15 +84,17 @@ contains
       !> Its verdict
       type(rattle_verdict_t), intent(out) :: verdict
       type(error_t), allocatable :: error
-      type(window_t) :: fine
-      type(ending_t) :: ending
+      type(prepared_scene_t) :: scenes(1)
+      type(scene_group_t) :: group
+      logical, parameter :: wants(seen_quantities) = .true.
 
-      fine%periods = window
-      fine%samples_per_period = 512
-      call solve_whole_window(drawn%scene, drawn%resolved%problem, start_of(drawn%resolved%problem), 1.0e-11_dp, periods, &
-                             drawn%resolved%noise_floor, fine, &
-                             verdict, ending, error)
-      if (allocated(error) .or. .not. is_success(ending%status)) error stop 'newmark_outcomes: a scene cannot be solved'
+      scenes(1) = prepare(drawn%scene)
+      scenes%resolved = drawn%resolved
+      scenes%request = request_t(accuracy=1.0e-11_dp, periods=periods, samples_per_period=512, sampled_periods=window)
+      call solve_group(scenes, [start_of(drawn%resolved%problem)], wants, group)
+      if (is_success(group%endings(1)%status)) call classify_windows(scenes, group, error)
+      if (allocated(error) .or. .not. is_success(group%endings(1)%status)) error stop 'newmark_outcomes: a scene cannot be solved'
+      verdict = group%verdicts(1)
    end subroutine solve_reference
 
    !> What comes out of one run.

@@ -2,30 +2,26 @@
 !> value of a sweep, without their files. The only file of this study that knows how the program does that.
 module told_summary
    use verification, only: verification_sentence, verification_word
-   use controlled_engine, only: solve_controlled
-   use engine, only: checkpoint_t, ending_t, motion_state_t, unwatched_t, request_t, start_of
+   use engine, only: ending_t, motion_state_t, request_t, start_of
    use errors, only: error_t
    use impact_reference, only: compared_harmonics
-   use judge_scene, only: judge, note_ending
    use judged_scene, only: judged_scene_t, quantity_value
    use kinds, only: dp, int64
    use many_motions, only: solve_motions
-   use newmark_engine, only: solve_newmark
    use problem, only: has_two_flanks, problem_t
    use quantities, only: quantity_acceleration_maximum, quantity_acceleration_minimum, quantity_verified, &
-                         quantity_coast_film_maximum, quantity_coast_film_minimum, &
-                         quantity_film_maximum, quantity_film_minimum, quantity_harmonics, quantity_orbit_period, &
-                         quantity_periods_solved, quantity_rattle_class, quantity_sampling_sufficient, quantity_word
+      quantity_coast_film_maximum, quantity_coast_film_minimum, quantity_film_maximum, quantity_film_minimum, &
+      quantity_harmonics, quantity_orbit_period, quantity_periods_solved, quantity_rattle_class, quantity_sampling_sufficient, &
+      quantity_word
    use random_scenes, only: drawn_scene_t
-   use prepared_scene, only: request_of, resolved_scene_t
    use run_sweep, only: carried_state_t, solve_value
-   use sample_recorder, only: sample_recorder_t
+   use scene_solution, only: solve_in_memory
    use sampling, only: plan_table, sample_plan_t
    use scene_status, only: is_success, status_steady, status_name
-   use scene_types, only: method_taylor, scene_t, task_campaign, until_steady
-   use solve_chunk, only: chunk_space_t, solve_scenes
+   use scene_types, only: scene_t, task_campaign, until_steady
+   use judge_group, only: judgement_space_t
+   use solve_chunk, only: solve_scenes
    use varied_keys, only: find_varied_key
-   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -51,7 +47,7 @@ module told_summary
       logical :: sampling_sufficient = .true.
    end type told_t
 
-   public :: rows_told, solve_and_judge, steps_expected, summary_told, value_told
+   public :: rows_told, steps_expected, summary_told, value_told
 
 contains
 
@@ -77,47 +73,22 @@ contains
                                                       drawn%scene%solver%until == until_steady)
    end function steps_expected
 
-   !> Solve and judge a scene, as the program does it alone.
-   subroutine solve_and_judge(scene, resolved, result, ending, error)
-      type(scene_t), intent(in) :: scene
-      !> What follows from it
-      type(resolved_scene_t), intent(in) :: resolved
-      type(judged_scene_t), intent(out) :: result
-      type(ending_t), intent(out) :: ending
-      type(error_t), allocatable, intent(out) :: error
-      type(window_record_t) :: record
-      type(sample_recorder_t) :: recorder
-      type(checkpoint_t) :: start
-      type(unwatched_t) :: nobody
-
-      call recorder%open(scene, resolved%problem, '', 0, error)
-      if (scene%solver%method == method_taylor) then
-         call solve_controlled(resolved%problem, request_of(scene), recorder, nobody, start, ending, record, error)
-      else
-         call solve_newmark(resolved%problem, request_of(scene), recorder, nobody, start, ending, record, error)
-      end if
-      result%resolved = resolved
-      call note_ending(ending, result)
-      if (.not. allocated(error)) call judge(scene, recorder, record, ending, result, error)
-   end subroutine solve_and_judge
-
    !> What the summary of a scene tells.
    subroutine summary_told(drawn, told)
       !> The scene with its solver
       type(drawn_scene_t), intent(in) :: drawn
       type(told_t), intent(out) :: told
       type(judged_scene_t) :: result
-      type(ending_t) :: ending
       type(error_t), allocatable :: error
       integer :: n
 
-      call solve_and_judge(drawn%scene, drawn%resolved, result, ending, error)
+      call solve_in_memory(drawn%scene, result, error)
       told%status = status_name(result%status)
       if (allocated(error)) told%status = 'not_written'
       told%judged = is_success(result%status) .and. result%judged .and. .not. allocated(error)
       if (.not. told%judged) return
       told%class = quantity_word(quantity_rattle_class, result%rattle%class)
-      told%periods = result%periods
+      told%periods = result%ending%periods
       told%window = result%window_periods
       told%orbit = result%repeats_after
       told%repeats = result%orbit%period
@@ -173,7 +144,7 @@ contains
       integer, allocatable :: record(:)
       type(scene_t) :: scene
       type(sample_plan_t) :: plan
-      type(chunk_space_t), allocatable :: space
+      type(judgement_space_t), allocatable :: space
       type(error_t), allocatable :: error
       character(:), allocatable :: message
       real(dp), allocatable :: table(:, :), rows(:, :)
@@ -230,8 +201,9 @@ contains
       type(told_t), intent(out) :: told
       type(error_t), allocatable :: error
       type(judged_scene_t) :: judged
+      type(judgement_space_t) :: space
 
-      call solve_value(scene, state, judged, error)
+      call solve_value(scene, state, space, judged, error)
       told%status = status_name(judged%status)
       told%judged = is_success(judged%status) .and. .not. allocated(error)
       told%verification_asked = .false.
@@ -240,9 +212,9 @@ contains
       told%class = quantity_word(quantity_rattle_class, judged%rattle%class)
       ! The window is the orbit of a motion found steady.
       told%window = scene%spectrum%periods
-      if (judged%periods < scene%solver%periods) told%orbit = judged%orbit%period
+      if (judged%ending%periods < scene%solver%periods) told%orbit = judged%orbit%period
       if (told%orbit > 0) told%window = told%orbit
-      told%periods = judged%periods
+      told%periods = judged%ending%periods
       told%harmonics(1) = judged%rattle%spectrum%harmonics(1)
       told%harmonic_count = 1
    end subroutine value_told

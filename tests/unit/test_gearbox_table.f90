@@ -59,7 +59,7 @@ contains
       judged%resolved = resolve(scene)
       judged%status = status
       judged%judged = status == status_steady
-      judged%periods = 10
+      judged%ending%periods = 10
       judged%rattle%class = class_idle
       judged%verification%exists = .true.
       judged%verification%verified = number == 1

@@ -1,34 +1,33 @@
 !> Tests of films with a state of their own: motions of a chain of relaxing films against their exact solution, on one flank and
 !> two, of rigid teeth and elastic ones; carried on, over a period, repeating, verified and in a campaign.
 module test_inner_states
-   use canonical_scenes, only: canonical_scene, counting_watcher_t
+   use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t, same_bits
    use constants, only: two_pi
-   use controlled_engine, only: solve_controlled, solve_window
+   use controlled_engine, only: solve_window
    use engine, only: checkpoint_t, ending_t, motion_state_t, request_t, start_of
    use errors, only: error_t
    use byte_file, only: put_in_place
    use film_states, only: add_film_state
-   use judge_scene, only: judge, note_ending
-   use judged_scene, only: judged_scene_t, quantity_list, quantity_value
+   use judged_scene, only: judged_scene_t, quantity_value
    use key_table, only: find_key
    use kinds, only: dp, int64
    use many_motions, only: solve_motions
    use matrix_values, only: eigenvalues
    use output_place, only: state_path
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
-   use problem, only: contact_count, film_at_rest, films_at_rest, has_elastic_teeth, inner_places, of_drive_compression, &
-      of_film, of_velocity, problem_of, problem_t, state_numbers, state_size, static_load
-   use quantities, only: a_list, quantities_told_in, quantity_acceleration_maximum, quantity_verified, quantity_film_minimum, &
-                         quantity_rattle_class, quantity_table
+   use problem, only: contact_count, film_at_rest, has_elastic_teeth, inner_places, of_drive_compression, of_film, of_velocity, &
+      problem_of, problem_t, state_size, static_load
+   use quantities, only: quantity_acceleration_maximum, quantity_verified, quantity_film_minimum, quantity_rattle_class, &
+      quantity_table
    use relaxing_film, only: chain_length, relaxing_film_t
-   use prepared_scene, only: request_of, resolve
    use resume, only: load_state, save_state
-   use sample_recorder, only: sample_recorder_t
+   use scene_solution, only: solve_in_memory
    use sampling, only: plan_table, sample_plan_t
    use scene_status, only: is_success, status_complete
    use scene_types, only: method_taylor, scene_t, until_steady
-   use solve_chunk, only: chunk_space_t, solve_scenes
+   use judge_group, only: judgement_space_t
+   use solve_chunk, only: solve_scenes
    use window_record, only: window_record_t
    implicit none(type, external)
    private
@@ -279,13 +278,8 @@ contains
       type(check_list_t), intent(inout) :: checks
       type(scene_t) :: scene
       type(judged_scene_t) :: judged
-      type(sample_recorder_t) :: recorder
-      type(counting_watcher_t) :: watcher
-      type(checkpoint_t) :: start
-      type(ending_t) :: ending
-      type(window_record_t) :: record
       type(error_t), allocatable :: error
-      type(chunk_space_t), allocatable :: space
+      type(judgement_space_t), allocatable :: space
       type(sample_plan_t) :: plan
       real(dp), allocatable :: values(:, :), rows(:, :)
       integer, parameter :: told(*) = [quantity_rattle_class, quantity_verified, quantity_film_minimum, &
@@ -299,11 +293,7 @@ contains
       scene%campaign%samples_per_period = 64
       scene%campaign%record = told
       scene%resolved_input = ''
-      judged%resolved = resolve(scene)
-      call recorder%open(scene, judged%resolved%problem, '', 0, error)
-      call solve_controlled(judged%resolved%problem, request_of(scene), recorder, watcher, start, ending, record, error)
-      call note_ending(ending, judged)
-      call judge(scene, recorder, record, ending, judged, error)
+      call solve_in_memory(scene, judged, error)
       call checks%check(judged%judged .and. quantity_value(quantity_verified, judged) > 0.5_dp, 'scene: verified')
       allocate (values, source=reshape(scene%excitation%force_amplitude*[1.0_dp, 0.5_dp], [1, 2]))
       call plan_table([find_key('load', 'force_amplitude')], values, plan)

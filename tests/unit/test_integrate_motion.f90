@@ -56,7 +56,7 @@ contains
       call run_window(scene, recorder, ending)
       response%status = ending%status
       if (ending%status /= status_complete) return
-      response%extremes = [minval(recorder%states(:, of_film)), maxval(recorder%states(:, of_film)), &
+      response%extremes = [minval(recorder%states(:, of_film, 1)), maxval(recorder%states(:, of_film, 1)), &
                              minval(recorder%accelerations), maxval(recorder%accelerations)]
       call find_harmonics(recorder%accelerations, 1, [.true.], 0.01_dp, 1.0e-10_dp, response%spectrum)
       response%harmonics = response%spectrum%harmonics(:6)
@@ -259,13 +259,13 @@ contains
          'bookkeeping: periods told')
       call checks%check_close(ending%time*600.0_dp, 7.0_dp, 8.0_dp*epsilon(1.0_dp), 'bookkeeping: time')
       call checks%check(size(recorder%states, 1) == 512, 'bookkeeping: size of the window')
-      call checks%check_close(recorder%states(512, of_film), ending%numbers(of_film), 0.0_dp, &
+      call checks%check_close(recorder%states(512, of_film, 1), ending%numbers(of_film), 0.0_dp, &
          'bookkeeping: the window ends with the run')
       film = new_film(scene)
       call force_of_period(cosine_force(199.2_dp, 205.7_dp), force)
       residual = 0.0_dp
       do i = 1, 512
-         call film_load(film, recorder%states(i, of_film), recorder%states(i, of_velocity), load, slope_h, slope_w)
+         call film_load(film, recorder%states(i, of_film, 1), recorder%states(i, of_velocity, 1), load, slope_h, slope_w)
          residual = max(residual, abs(load - force(1 + modulo(i - 1, 256)) - 3.0_dp*9.80665_dp - &
             3.0_dp*recorder%accelerations(i)))
       end do

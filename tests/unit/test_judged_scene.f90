@@ -49,11 +49,11 @@ contains
       judged%resolved%drag%synchroniser = 6.5_dp
       judged%resolved%drag%churning = 7.5_dp
       judged%judged = .true.
-      judged%periods = 40
+      judged%ending%periods = 40
       judged%repeats_after = 3
-      judged%count%steps = 50
-      judged%count%evaluations = 75
-      judged%count%cuts = 9
+      judged%ending%count%steps = 50
+      judged%ending%count%evaluations = 75
+      judged%ending%count%cuts = 9
       judged%window_periods = 4
       judged%samples_per_period = 64
       judged%rattle%class = class_idle

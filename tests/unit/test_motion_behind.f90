@@ -7,11 +7,11 @@ module test_motion_behind
    use errors, only: error_t
    use kinds, only: dp
    use many_motions, only: solve_motions
-   use motion_behind, only: follow_behind, other_accuracy
    use rattle_class, only: class_irregular, class_irregular_so_far
-   use prepared_scene, only: resolve, resolved_scene_t
-   use scene_types, only: law_iso_viscous, scene_t, spectrum_choice_t
+   use prepared_scene, only: prepare, prepared_scene_t, with_accuracy
+   use scene_types, only: law_iso_viscous, scene_t
    use verification, only: windows_behind
+   use verify_group, only: follow_behind, other_accuracy
    implicit none(type, external)
    private
 
@@ -39,8 +39,7 @@ contains
       real(dp), parameter :: speeds(2) = [12.0_dp, 1.905_dp], amplitudes(2) = [1200.0_dp, 400.0_dp]
       integer, parameter :: none_before = 0, some_before = 52
       type(scene_t) :: scene
-      type(resolved_scene_t) :: resolved(2)
-      type(spectrum_choice_t) :: choices(2)
+      type(prepared_scene_t) :: scenes(2)
       type(motion_state_t) :: together(2), alone(1), start(1)
       type(doubt_t) :: doubts(2), doubt(1)
       type(error_t), allocatable :: error
@@ -50,11 +49,11 @@ contains
          scene = canonical_scene(law_iso_viscous, samples_per_period)
          scene%kinematics%entrainment_speed = speeds(i)
          scene%excitation%force_amplitude = amplitudes(i)
-         resolved(i) = resolve(scene)
-         choices(i) = scene%spectrum
-         together(i) = start_of(resolved(i)%problem)
+         scenes(i) = with_accuracy(prepare(scene), accuracy)
+         scenes(i)%request%sampled_periods = window
+         together(i) = start_of(scenes(i)%resolved%problem)
       end do
-      call follow_behind(resolved, choices, accuracy, none_before, window, samples_per_period, together, doubts, error)
+      call follow_behind(scenes, none_before, together, doubts, error)
       call checks%check(.not. allocated(error), 'no error')
       call checks%check(.not. is_doubted(doubts(1)), 'irregular for good')
       call checks%check(doubts(2)%code == doubt_class_behind .and. .not. any(doubts(2)%counts(1) == &
@@ -63,17 +62,17 @@ contains
          windows = 1 + windows_behind(window)
          if (is_doubted(doubts(i))) windows = 1 + doubts(i)%counts(2)
          call expect_end(i, windows*window, together(i))
-         alone = start_of(resolved(i)%problem)
-         call follow_behind(resolved(i:i), choices(i:i), accuracy, none_before, window, samples_per_period, alone, doubt, error)
+         alone = start_of(scenes(i)%resolved%problem)
+         call follow_behind(scenes(i:i), none_before, alone, doubt, error)
          call checks%check(all(abs(together(i)%numbers - alone(1)%numbers) <= 0.0_dp) .and. &
                            doubt(1)%code == doubts(i)%code .and. all(doubt(1)%counts == doubts(i)%counts), 'as if it were alone')
       end do
-      alone = start_of(resolved(1)%problem)
-      call follow_behind(resolved(:1), choices(:1), accuracy, some_before, window, samples_per_period, alone, doubt, error)
+      alone = start_of(scenes(1)%resolved%problem)
+      call follow_behind(scenes(:1), some_before, alone, doubt, error)
       call expect_end(1, some_before + (1 + windows_behind(window))*window, alone(1))
       ! Where it begins later, the one that settles has settled.
-      start = start_of(resolved(2)%problem)
-      call follow_behind(resolved(2:), choices(2:), accuracy, some_before, window, samples_per_period, start, doubt, error)
+      start = start_of(scenes(2)%resolved%problem)
+      call follow_behind(scenes(2:), some_before, start, doubt, error)
       call checks%check(doubt(1)%code == doubt_class .and. doubt(1)%counts(1) == doubts(2)%counts(1), 'settled in its window')
 
    contains
@@ -87,7 +86,7 @@ contains
          type(ending_t) :: ended(1)
          real(dp) :: none(0, 2, 1)
 
-         call solve_motions(resolved(place:place)%problem, [start_of(resolved(place)%problem)], &
+         call solve_motions(scenes(place:place)%resolved%problem, [start_of(scenes(place)%resolved%problem)], &
                             request_t(accuracy=accuracy, periods=periods, every_period=.true.), none, ended)
          call checks%check(all(abs(state%numbers - ended(1)%numbers) <= 0.0_dp), 'where the last window behind ends')
       end subroutine expect_end

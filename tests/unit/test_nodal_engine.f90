@@ -3,20 +3,23 @@
 module test_nodal_engine
    use canonical_scenes, only: canonical_scene, counting_watcher_t, scene_g
    use checks, only: check_list_t
-   use engine, only: ending_t
+   use engine, only: checkpoint_t, ending_t
    use errors, only: error_t
    use kinds, only: dp
    use nodal_step, only: nodal_choice_t
-   use nodal_scene, only: choice_of, solve_nodal_scene, window_keeper_t
+   use nodal_engine, only: solve_in_nodes
+   use nodal_judgement, only: choice_of
    use node_extremes, only: seen_acceleration, seen_films, seen_loads, seen_pressure
    use carried_loads, only: gear_positions
-   use problem, only: problem_of, problem_t, state_size
-   use prepared_scene, only: request_of
+   use problem, only: problem_of, problem_t
+   use prepared_scene, only: request_of, prepare
    use scene_status, only: status_complete, status_steady
    use scene_types, only: law_elastohydrodynamic, method_taylor, model_resolved, scene_t, until_periods, until_steady, &
-                          viscosity_constant, viscosity_roelands
+      viscosity_constant, viscosity_roelands
    use text, only: integer_text
    use window_record, only: window_record_t
+   use classify_group, only: integral_record
+   use window_keeper, only: window_keeper_t
    implicit none(type, external)
    private
 
@@ -49,13 +52,17 @@ contains
       real(dp), intent(in), optional :: bound
       type(problem_t) :: problem
       type(nodal_choice_t) :: choice
+      type(checkpoint_t) :: start
       type(error_t), allocatable :: error
 
       problem = problem_of(scene)
-      call choice_of(scene, problem, choice)
+      call choice_of(prepare(scene), choice)
       if (present(bound)) choice%bound = bound
-      keeper%numbers = state_size(problem)
-      call solve_nodal_scene(scene, problem, choice, request_of(scene), keeper, watcher, ending, record, error)
+      call keeper%keep_windows_of(problem)
+      record = integral_record(scene%spectrum)
+      record%wants = .true.
+      record%loads%impact_limit = scene%spectrum%impact_limit
+      call solve_in_nodes(problem, choice, request_of(scene), keeper, watcher, start, ending, record, error)
    end subroutine solve
 
    !> The canonical scenes, two periods from rest: gear positions after half a period and a whole one, from that at rest, largest
@@ -92,7 +99,7 @@ contains
          scene%spectrum%periods = 2
          call solve(scene, keeper, ending, record, watcher)
          call checks%check(ending%status == status_complete .and. ending%periods == 2, 'canonical scene is solved')
-         positions = gear_positions(problem_of(scene), keeper%states)
+         positions = gear_positions(problem_of(scene), keeper%states(:, :, 1))
          start = sum(gear_positions(problem_of(scene), reshape(record%start%numbers, [1, size(record%start%numbers)])))
          found = [1.0e6_dp*(positions(256) - start), 1.0e6_dp*(positions(512) - start), &
                   record%highest(seen_acceleration)%value, 1.0e6_dp*record%lowest(seen_films(1))%value]

@@ -7,23 +7,25 @@ module test_nodal_orbit
    use doubt, only: doubt_parting, doubt_sentence, doubt_t
    use engine, only: checkpoint_t, ending_t
    use errors, only: error_t
-   use fine_window, only: window_t
+   use classify_group, only: integral_record
    use kinds, only: dp
    use lyapunov, only: parting_t
    use nodal_engine, only: solve_in_nodes
    use nodal_flank, only: nodal_contact_t
    use nodal_orbit, only: find_nodal_orbit, follow_nodal_neighbours, orbit_found, orbit_none_near, orbit_out_of_time, &
-                          orbit_sentence
-   use nodal_scene, only: choice_of, solve_finer, solve_nodal_scene, window_keeper_t
+      orbit_sentence
+   use nodal_judgement, only: choice_of, solve_finer
    use nodal_state, only: unpack_motion
    use nodal_step, only: gear_t, motion_t, nodal_choice_t, set_up, take_step
    use nodal_tangent, only: displace, nodal_tangent_t, start_tangent
    use periodic_orbit, only: periodic_orbit_t
-   use problem, only: problem_of, problem_t, state_size
-   use prepared_scene, only: request_of
+   use problem, only: problem_of, problem_t
+   use prepared_scene, only: request_of, prepare
    use scene_status, only: status_complete, status_time_limit
    use scene_types, only: law_elastohydrodynamic, model_resolved, scene_t, until_periods, viscosity_constant, viscosity_roelands
    use window_record, only: window_record_t
+   use scene_group, only: scene_group_t
+   use window_keeper, only: window_keeper_t
    implicit none(type, external)
    private
 
@@ -51,12 +53,16 @@ contains
       type(window_keeper_t) :: keeper
       type(window_record_t) :: record
       type(counting_watcher_t) :: watcher
+      type(checkpoint_t) :: start
       type(error_t), allocatable :: error
 
       problem = problem_of(scene)
-      call choice_of(scene, problem, choice)
-      keeper%numbers = state_size(problem)
-      call solve_nodal_scene(scene, problem, choice, request_of(scene), keeper, watcher, ending, record, error)
+      call choice_of(prepare(scene), choice)
+      call keeper%keep_windows_of(problem)
+      record = integral_record(scene%spectrum)
+      record%wants = .true.
+      record%loads%impact_limit = scene%spectrum%impact_limit
+      call solve_in_nodes(problem, choice, request_of(scene), keeper, watcher, start, ending, record, error)
    end subroutine solve
 
    !> Scene G, some periods of it.
@@ -190,7 +196,7 @@ contains
       type(ending_t) :: ending, again
       type(periodic_orbit_t) :: orbit
       type(parting_t) :: parting
-      type(window_t) :: window
+      type(scene_group_t) :: group
       type(window_keeper_t) :: keeper
       type(window_record_t) :: record
       type(counting_watcher_t) :: watcher
@@ -212,13 +218,11 @@ contains
       call checks%check(parting%out_of_time .and. parting%periods == 0 .and. .not. parting%for_good, 'no neighbour is followed')
       call checks%check(index(doubt_sentence(doubt_t(doubt_parting, parting=parting)), 'solver.time_limit was over') > 0, &
                         'and it is said of an irregular motion')
-      window%periods = 1
-      window%samples_per_period = 16
-      call solve_finer(scene, problem, choice, request_of(scene), 1, window, again)
-      call checks%check(again%status == status_time_limit .and. again%periods == 0, 'nor is it solved again')
+      call solve_finer(prepare(scene), choice, 1, group, goes_on=.false.)
+      call checks%check(group%endings(1)%status == status_time_limit .and. group%endings(1)%periods == 0, 'nor is it solved again')
       scene%solver%periods = 2
       scene%solver%time_limit = 0.0_dp
-      keeper%numbers = state_size(problem)
+      call keeper%keep_windows_of(problem)
       call solve_in_nodes(problem, choice, request_of(scene), keeper, watcher, checkpoint, again, record, error)
       call checks%check(again%status == status_time_limit .and. again%periods == 1, 'nor goes another solution on')
    end subroutine test_out_of_time

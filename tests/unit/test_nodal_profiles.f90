@@ -2,20 +2,23 @@
 module test_nodal_profiles
    use canonical_scenes, only: scene_g
    use checks, only: check_list_t
-   use engine, only: ending_t, unwatched_t
+   use engine, only: checkpoint_t, ending_t, unwatched_t
    use errors, only: error_t
    use kinds, only: dp
    use nodal_film, only: smallest_film
    use nodal_profiles, only: at_largest_loads, nodal_profile_t, nodal_profiles_t
-   use nodal_scene, only: choice_of, solve_nodal_scene, window_keeper_t
+   use nodal_engine, only: solve_in_nodes
+   use nodal_judgement, only: choice_of
    use nodal_step, only: nodal_choice_t
    use node_extremes, only: seen_loads
-   use problem, only: coast_flank, drive_flank, problem_of, problem_t, state_size
-   use prepared_scene, only: request_of
+   use problem, only: coast_flank, drive_flank, problem_of, problem_t
+   use prepared_scene, only: request_of, prepare
    use scene_types, only: model_resolved, scene_t, viscosity_roelands
    use text, only: integer_text
    use window_impacts, only: impacts_of_record, window_impacts_t
    use window_record, only: window_record_t
+   use classify_group, only: integral_record
+   use window_keeper, only: window_keeper_t
    implicit none(type, external)
    private
 
@@ -43,6 +46,7 @@ contains
       type(window_keeper_t) :: keeper
       type(unwatched_t) :: nobody
       type(ending_t) :: ending
+      type(checkpoint_t) :: start
       type(error_t), allocatable :: error
 
       scene = scene_g(viscosity_roelands)
@@ -52,9 +56,12 @@ contains
       scene%solver%periods = 2
       scene%spectrum%periods = 1
       problem = problem_of(scene)
-      call choice_of(scene, problem, choice)
-      keeper%numbers = state_size(problem)
-      call solve_nodal_scene(scene, problem, choice, request_of(scene), keeper, nobody, ending, record, error, profiles)
+      call choice_of(prepare(scene), choice)
+      call keeper%keep_windows_of(problem)
+      record = integral_record(scene%spectrum)
+      record%wants = .true.
+      record%loads%impact_limit = scene%spectrum%impact_limit
+      call solve_in_nodes(problem, choice, request_of(scene), keeper, nobody, start, ending, record, error, profiles)
    end subroutine solve
 
    !> A profile carries the load that is told of it, and obeys the shape of its contact.

@@ -2,36 +2,27 @@
 !> sweep and as a row of a campaign.
 module test_quantities
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use canonical_scenes, only: canonical_scene, counting_watcher_t
+   use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t
-   use controlled_engine, only: solve_controlled
-   use engine, only: checkpoint_t, ending_t
    use errors, only: error_t
-   use judge_scene, only: judge, note_ending
    use judged_scene, only: judged_scene_t, quantity_list, quantity_value
    use key_table, only: find_key
    use kinds, only: dp, int64
    use problem, only: has_elastic_teeth
    use quantities, only: a_list, a_number, least_verdict_with_impacts, needs_impacts, needs_motion_verdicts, needs_starts, &
-                         quantity_impacts_per_period_drive, &
-                         quantity_gear_acceleration_maximum, quantity_gear_acceleration_rms, &
-                         quantity_impacts_verified, quantity_verdict, quantity_verdict_verified, verification_of, &
-                          quantities_told_in, quantity_lyapunov_exponent, quantity_impacts_coast, &
-                         quantity_drag_bearing, quantity_drag_churning, quantity_drag_synchroniser, quantity_drag_torque, &
-                         quantity_inertia_ratio, &
-                         quantity_central_film, quantity_closure_range, quantity_film_at_pressure_maximum, &
-                         quantity_film_model, &
-                         quantity_pressure_error, quantity_pressure_resolved, &
-                         quantity_impacts_drive, quantity_verified, quantity_gear_position_maximum, &
-                         quantity_gear_position_minimum, quantity_periods_solved, quantity_status, quantity_table, &
-                         quantity_word
-   use prepared_scene, only: request_of, resolve
+      quantity_impacts_per_period_drive, quantity_gear_acceleration_maximum, quantity_gear_acceleration_rms, &
+      quantity_impacts_verified, quantity_verdict, quantity_verdict_verified, verification_of, quantities_told_in, &
+      quantity_lyapunov_exponent, quantity_impacts_coast, quantity_drag_bearing, quantity_drag_churning, &
+      quantity_drag_synchroniser, quantity_drag_torque, quantity_inertia_ratio, quantity_central_film, quantity_closure_range, &
+      quantity_film_at_pressure_maximum, quantity_film_model, quantity_pressure_error, quantity_pressure_resolved, &
+      quantity_impacts_drive, quantity_verified, quantity_gear_position_maximum, quantity_gear_position_minimum, &
+      quantity_periods_solved, quantity_status, quantity_table, quantity_word
    use run_sweep, only: carried_state_t, solve_value
-   use sample_recorder, only: sample_recorder_t
+   use scene_solution, only: solve_in_memory
    use sampling, only: plan_table, sample_plan_t
    use scene_types, only: law_iso_viscous, method_taylor, scene_t, until_steady
-   use solve_chunk, only: chunk_space_t, solve_scenes
-   use window_record, only: window_record_t
+   use judge_group, only: judgement_space_t
+   use solve_chunk, only: solve_scenes
    implicit none(type, external)
    private
 
@@ -193,18 +184,9 @@ contains
    subroutine solve_single(scene, judged)
       type(scene_t), intent(in) :: scene          !> The scene
       type(judged_scene_t), intent(out) :: judged  !> Its result
-      type(sample_recorder_t) :: recorder
-      type(counting_watcher_t) :: watcher
-      type(checkpoint_t) :: start
-      type(ending_t) :: ending
-      type(window_record_t) :: record
       type(error_t), allocatable :: error
 
-      judged%resolved = resolve(scene)
-      call recorder%open(scene, judged%resolved%problem, '', 0, error)
-      call solve_controlled(judged%resolved%problem, request_of(scene), recorder, watcher, start, ending, record, error)
-      call note_ending(ending, judged)
-      call judge(scene, recorder, record, ending, judged, error)
+      call solve_in_memory(scene, judged, error)
    end subroutine solve_single
 
    !> Solve and judge it as the first value of a sweep.
@@ -213,15 +195,16 @@ contains
       type(judged_scene_t), intent(out) :: judged  !> Its result
       type(error_t), allocatable :: error
       type(carried_state_t) :: state
+      type(judgement_space_t) :: space
 
-      call solve_value(scene, state, judged, error)
+      call solve_value(scene, state, space, judged, error)
    end subroutine solve_swept
 
    !> Solve and judge it as a row of a campaign.
    subroutine solve_row(scene, row)
       type(scene_t), intent(in) :: scene           !> The scene
       real(dp), allocatable, intent(out) :: row(:)  !> Its quantities
-      type(chunk_space_t), allocatable :: space
+      type(judgement_space_t), allocatable :: space
       type(error_t), allocatable :: error
       type(sample_plan_t) :: plan
       real(dp), allocatable :: values(:, :), rows(:, :)

@@ -6,9 +6,11 @@ module test_scene_group
    use kinds, only: dp
    use node_extremes, only: seen_quantities
    use problem, only: state_size
-   use prepared_scene, only: resolve, resolved_scene_t
-   use scene_group, only: classify_group, scene_group_t, solve_group
-   use scene_types, only: law_iso_viscous, scene_t, spectrum_choice_t
+   use classify_group, only: classify_windows
+   use errors, only: error_t
+   use prepared_scene, only: prepare, prepared_scene_t
+   use scene_group, only: scene_group_t, solve_group
+   use scene_types, only: law_iso_viscous, scene_t
    implicit none(type, external)
    private
 
@@ -46,8 +48,8 @@ contains
       real(dp), parameter :: speeds(count) = [1.905_dp, 1.905_dp, 12.0_dp]
       real(dp), parameter :: thresholds(count) = [0.3_dp, 0.01_dp, 0.02_dp]
       type(scene_t) :: scene
-      type(resolved_scene_t) :: resolved(count)
-      type(spectrum_choice_t) :: choices(count)
+      type(prepared_scene_t) :: scenes(count)
+      type(error_t), allocatable :: error
       type(scene_group_t) :: together, alone
       integer :: i
 
@@ -56,20 +58,19 @@ contains
          scene%excitation%force_amplitude = amplitudes(i)
          scene%kinematics%entrainment_speed = speeds(i)
          scene%spectrum%harmonic_threshold = thresholds(i)
-         resolved(i) = resolve(scene)
-         choices(i) = scene%spectrum
-         choices(i)%periods = 16
+         scenes(i) = prepare(scene)
+         scenes(i)%request = request_of(400)
       end do
-      associate (problems => resolved%problem, request => request_of(400))
-         call solve_group(problems, start_of(problems), request, wants, together)
-         call classify_group(problems, choices, resolved%noise_floor, request, together)
+      associate (problems => scenes%resolved%problem)
+         call solve_group(scenes, start_of(problems), wants, together)
+         call classify_windows(scenes, together, error)
          call checks%check(all(together%endings%orbit == [1, 1, 2]), 'unlike windows: one period, one, two')
          call checks%check(all(together%endings%samples == 16*[1, 1, 2]), 'unlike windows: samples')
          call checks%check(together%verdicts(1)%spectrum%harmonic_count == 1, 'unlike windows: lines of quiet motion')
          call checks%check(together%verdicts(2)%spectrum%harmonic_count == 30, 'unlike windows: lines of idle rattle')
          do i = 1, count
-            call solve_group(problems(i:i), start_of(problems(i:i)), request, wants, alone)
-            call classify_group(problems(i:i), choices(i:i), resolved(i:i)%noise_floor, request, alone)
+            call solve_group(scenes(i:i), start_of(problems(i:i)), wants, alone)
+            call classify_windows(scenes(i:i), alone, error)
             associate (mine => together%verdicts(i), own => alone%verdicts(1))
                call checks%check(mine%class == own%class .and. mine%spectrum%harmonic_count == own%spectrum%harmonic_count, &
                                  'unlike windows: class and lines as alone')
@@ -88,19 +89,19 @@ contains
       type(check_list_t), intent(inout) :: checks
 
       type(scene_t) :: scene
-      type(resolved_scene_t) :: rigid(1), elastic(1)
+      type(prepared_scene_t) :: rigid(1), elastic(1)
       type(scene_group_t) :: kept, fresh
 
       scene = loose_gear()
-      rigid(1) = resolve(scene)
+      rigid(1) = prepare(scene)
       scene%contact%stiffness = 2.8e8_dp
-      elastic(1) = resolve(scene)
-      associate (request => request_of(40))
-         call solve_group(rigid%problem, start_of(rigid%problem), request, wants, kept)
-         call solve_group(elastic%problem, start_of(elastic%problem), request, wants, kept)
-         call solve_group(elastic%problem, start_of(elastic%problem), request, wants, fresh)
-      end associate
-      call checks%check(size(kept%states, 2) == maxval(state_size(elastic%problem)), 'more numbers: room for all')
+      elastic(1) = prepare(scene)
+      rigid(1)%request = request_of(40)
+      elastic(1)%request = request_of(40)
+      call solve_group(rigid, start_of(rigid%resolved%problem), wants, kept)
+      call solve_group(elastic, start_of(elastic%resolved%problem), wants, kept)
+      call solve_group(elastic, start_of(elastic%resolved%problem), wants, fresh)
+      call checks%check(size(kept%states, 2) == maxval(state_size(elastic%resolved%problem)), 'more numbers: room for all')
       if (any(shape(kept%states) /= shape(fresh%states))) return
       associate (n => fresh%endings(1)%samples)
          call checks%check(n > 0 .and. kept%endings(1)%samples == n, 'more numbers: samples')

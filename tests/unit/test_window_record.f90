@@ -4,7 +4,7 @@ module test_window_record
    use checks, only: check_list_t, same_bits
    use constants, only: two_pi
    use engine, only: ending_t, motion_state_t, request_t, start_of
-   use finer_windows, only: integral_record
+   use classify_group, only: integral_record
    use kinds, only: dp
    use many_motions, only: solve_motions
    use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_films, seen_loads, seen_pressure, &

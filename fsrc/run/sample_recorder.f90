@@ -1,7 +1,6 @@
 !> Keeps of the samples of a motion what the scene asks for: the window at the end, and the time series
 !> in its file. A scene without a series keeps nothing beyond the window, however long it runs.
 module sample_recorder
-   use engine, only: sample_sink_t
    use errors, only: error_t, exit_bad_input, raise
    use force, only: force_at
    use kinds, only: dp, int64
@@ -13,16 +12,14 @@ module sample_recorder
    use scene_types, only: column_acceleration, column_applied_force, column_gear_position, column_names, &
       column_squeeze_velocity, column_time, column_units, columns_of_films, columns_of_loads, scene_t
    use signals, only: caught_signal
+   use window_keeper, only: window_keeper_t
    use window_record, only: window_record_t
    implicit none(type, external)
    private
 
    !> Recorder of a motion.
-   type, extends(sample_sink_t), public :: sample_recorder_t
+   type, extends(window_keeper_t), public :: sample_recorder_t
       private
-      !> Samples of the window: sample, number of its state; and z'' [m/s2]
-      real(dp), allocatable, public :: states(:, :), accelerations(:)
-      integer(int64) :: window_start = huge(1_int64)
       real(dp) :: steps_per_second = 0.0_dp, gravity = 0.0_dp
       type(problem_t) :: problem
       logical :: series = .false.
@@ -34,7 +31,6 @@ module sample_recorder
    contains
       procedure :: open => open_recorder
       procedure :: take => take_samples
-      procedure :: begin_window
       procedure :: add_extremes
       procedure :: close => close_recorder
    end type sample_recorder_t
@@ -61,6 +57,7 @@ contains
       samples = scene%solver%samples_per_period()
       self%steps_per_second = scene%excitation%frequency*real(samples, dp)
       self%problem = problem
+      call self%keep_windows_of(problem)
       self%gravity = scene%excitation%gravity
       self%series = scene%output%series
       if (.not. self%series) return
@@ -108,19 +105,6 @@ contains
       call reader%close()
    end subroutine copy_rows
 
-   !> Make room for the window.
-   subroutine begin_window(self, first_step, samples)
-      class(sample_recorder_t), intent(inout) :: self
-      !> Step of its first sample
-      integer(int64), intent(in) :: first_step
-      !> How many samples it has
-      integer, intent(in) :: samples
-
-      if (allocated(self%states)) deallocate (self%states, self%accelerations)
-      allocate (self%states(samples, state_size(self%problem)), self%accelerations(samples))
-      self%window_start = first_step
-   end subroutine begin_window
-
    !> Keep what belongs to the window, write what belongs to the series.
    subroutine take_samples(self, first_step, force, states, acceleration, error)
       class(sample_recorder_t), intent(inout) :: self
@@ -134,13 +118,8 @@ contains
       real(dp), intent(in) :: acceleration(:)
       !> Set if the series could not be written
       type(error_t), allocatable, intent(out) :: error
-      integer :: place
 
-      if (first_step >= self%window_start) then
-         place = int(first_step - self%window_start) + 1
-         self%states(place:place + size(force) - 1, :) = states(:, :size(self%states, 2))
-         self%accelerations(place:place + size(force) - 1) = acceleration
-      end if
+      call self%window_keeper_t%take(first_step, force, states, acceleration, error)
       if (self%series) call write_series(self, first_step, force, states, acceleration, error)
    end subroutine take_samples
 
@@ -236,6 +215,7 @@ contains
 
       if (.not. self%series) return
       if (coarse) call self%writer%mark_coarse()
+      if (record%periods == 0) return
       associate (quantities => [seen_films(1), seen_velocity, seen_acceleration])
          found = [record%lowest(quantities), record%highest(quantities)]
       end associate

@@ -1,0 +1,309 @@
+!> Classes of the windows of a group, and what becomes of motions that are off their harmonics.
+!>
+!> Where the samples of a window are too few for its harmonics, integrals over the steps give most of what samples do, for much
+!> less. Where they leave more open than the count of many harmonics, or creep rests on that count, windows are solved again from
+!> where they begin, side by side: with twice as many samples until these are enough.
+module classify_group
+   use carried_loads, only: accelerations_of_samples
+   use engine, only: ending_t, motion_state_t, request_t
+   use errors, only: error_t
+   use kinds, only: dp
+   use lyapunov, only: follow_neighbours, parting_t, path_t
+   use many_motions, only: solve_motions
+   use memory_need, only: expect_window_memory
+   use periodic_orbit, only: attracting_period, periodic_orbit_t
+   use prepared_scene, only: prepared_scene_t
+   use problem, only: state_size
+   use rattle_class, only: class_creep, class_irregular_so_far, classify_steps, is_off_harmonics, note_orbit, note_parting, &
+      rattle_verdict_t
+   use scene_group, only: has_window, scene_group_t
+   use scene_orbit, only: nearby_orbit
+   use scene_status, only: is_success
+   use scene_types, only: spectrum_choice_t
+   use signals, only: must_stop
+   use text_output, only: lock_texts, unlock_texts
+   use window_class, only: classify_window
+   use window_record, only: window_record_t
+   implicit none(type, external)
+   private
+
+   !> Samples of a period and of a window that no spectrum needs.
+   integer, parameter :: most_samples_per_period = 16384, most_samples = 8388608
+   !> Piece of a step [periods] that is too short for so many samples to follow what happens there.
+   real(dp), parameter :: least_piece = 0.25_dp/real(most_samples_per_period, dp)
+   !> Highest multiple of the frequency that is integrated for, as many as a summary lists.
+   integer, parameter :: usual_multiples = 40
+   !> Samples of windows that are solved side by side: no more than these, but for a window that has more alone.
+   integer, parameter :: samples_together = 2**21
+
+   public :: classify_windows, classify_finer, follow_irregular, integral_record, may_be_finer
+
+contains
+
+   !> Classes of the windows, by as many samples as they need, or by integrals over the steps. After a signal to stop they are of no
+   !> use.
+   subroutine classify_windows(scenes, group, error)
+      type(prepared_scene_t), intent(in) :: scenes(:)
+      !> The solved scenes; their classes are added
+      type(scene_group_t), intent(inout) :: group
+      !> Set if there is no memory for as many samples as are needed; the classes are of no use then
+      type(error_t), allocatable, intent(out) :: error
+      real(dp), allocatable :: accelerations(:)
+      type(rattle_verdict_t), allocatable :: verdicts(:)
+      integer, allocatable :: coarse(:), classified_by(:)
+      logical :: is_coarse(size(scenes))
+      integer :: i
+
+      is_coarse = .false.
+      if (.not. allocated(group%accelerations)) allocate (accelerations(size(group%states, 1)))
+      do i = 1, size(scenes)
+         if (must_stop()) return
+         if (has_window(group%endings(i))) call classify_own_samples(scenes(i), i, group, accelerations, is_coarse(i))
+      end do
+      coarse = pack([(i, i=1, size(scenes))], is_coarse)
+      if (size(coarse) > 0) then
+         verdicts = group%verdicts(coarse)
+         allocate (classified_by(size(coarse)))
+         call classify_finer(scenes(coarse), group%endings(coarse)%samples/scenes(1)%request%samples_per_period, &
+                             group%records(coarse), verdicts, classified_by, .false., error)
+         group%verdicts(coarse) = verdicts
+         group%classified_by(coarse) = classified_by
+      end if
+      do i = 1, size(scenes)
+         if (has_window(group%endings(i))) call note_orbit(group%verdicts(i), group%endings(i)%orbit)
+      end do
+   end subroutine classify_windows
+
+   !> Class of a window by the samples that there are.
+   subroutine classify_own_samples(scene, place, group, accelerations, is_coarse)
+      type(prepared_scene_t), intent(in) :: scene
+      !> Place of the scene in the group
+      integer, intent(in) :: place
+      type(scene_group_t), intent(inout) :: group
+      !> Work space for z'' of a window [m/s2]; not allocated where the engine handed it out
+      real(dp), allocatable, intent(inout) :: accelerations(:)
+      !> Whether the samples are too few, and the window can be solved again
+      logical, intent(out) :: is_coarse
+
+      associate (samples => group%endings(place)%samples, per_period => scene%request%samples_per_period, &
+                 problem => scene%resolved%problem, noise => scene%resolved%noise_floor, verdict => group%verdicts(place), &
+                 record => group%records(place))
+         if (allocated(accelerations)) then
+            call accelerations_of_samples(problem, per_period, group%states(:samples, :, place), accelerations(:samples))
+            call classify_window(scene%spectrum, problem, samples/per_period, accelerations(:samples), record, noise, verdict)
+         else
+            call classify_window(scene%spectrum, problem, samples/per_period, group%accelerations, record, noise, verdict)
+         end if
+         group%classified_by(place) = per_period
+         is_coarse = .not. verdict%spectrum%sampling_sufficient .and. record%periods > 0
+         if (.not. (is_coarse .and. problem%contact%film%in_nodes)) return
+         ! Films in nodes have their integrals already: samples would have to be solved for once more.
+         call classify_steps(record, problem%frequency, scene%spectrum, noise, verdict)
+         group%classified_by(place) = 0
+         is_coarse = .false.
+      end associate
+   end subroutine classify_own_samples
+
+   !> Classify some windows anew. After a signal to stop the classes are of no use.
+   subroutine classify_finer(scenes, periods, records, verdicts, classified_by, class_alone, error)
+      !> With the accuracy that they were solved with, and the samples that they have
+      type(prepared_scene_t), intent(in) :: scenes(:)
+      !> Periods of the windows
+      integer, intent(in) :: periods(:)
+      !> What their steps tell
+      type(window_record_t), intent(in) :: records(:)
+      !> Classes by the samples there are, which are too few; on return by more of them or by integrals
+      type(rattle_verdict_t), intent(inout) :: verdicts(:)
+      !> Samples of a period that the classes are from; 0: integrals over the steps
+      integer, intent(out) :: classified_by(:)
+      !> Whether nothing but the classes is asked for
+      logical, intent(in) :: class_alone
+      !> Set if there is no memory for as many samples as are needed; the classes are of no use then
+      type(error_t), allocatable, intent(out) :: error
+      type(window_record_t) :: windows(size(scenes))
+      type(rattle_verdict_t), allocatable :: by_samples(:)
+      integer, allocatable :: left(:), alike(:)
+      integer :: finer, together, first, i
+
+      finer = scenes(1)%request%samples_per_period
+      classified_by = finer
+      by_samples = verdicts
+      windows = integral_windows(scenes, records, periods)
+      do i = 1, size(scenes)
+         if (windows(i)%periods == 0) cycle
+         call classify_steps(windows(i), scenes(i)%resolved%problem%frequency, scenes(i)%spectrum, &
+                             scenes(i)%resolved%noise_floor, verdicts(i))
+         classified_by(i) = 0
+      end do
+      associate (spectrum => verdicts%spectrum)
+         if (class_alone) then
+            left = pack([(i, i=1, size(scenes))], spectrum%irregular_is_bound .and. .not. is_off_harmonics(verdicts%class))
+         else
+            left = pack([(i, i=1, size(scenes))], spectrum%irregular_is_bound .or. spectrum%distortion_is_bound .or. &
+                                                  .not. spectrum%count_is_bound .or. verdicts%class == class_creep)
+         end if
+      end associate
+      do
+         left = pack(left, may_be_finer(records(left), periods(left), finer) .and. &
+                     .not. by_samples(left)%spectrum%sampling_sufficient)
+         if (size(left) == 0) return
+         finer = 2*finer
+         !$omp critical (sentences)
+         call expect_window_memory(finer*maxval(periods(left)), error)
+         !$omp end critical (sentences)
+         if (allocated(error)) return
+         do i = minval(periods(left)), maxval(periods(left))
+            alike = pack(left, periods(left) == i)
+            together = max(1, samples_together/(i*finer))
+            do first = 1, size(alike), together
+               if (must_stop()) return
+               call classify_alike(alike(first:min(first + together - 1, size(alike))), i)
+            end do
+         end do
+      end do
+
+   contains
+
+      !> Solve windows of as many periods with the samples there are to be now, and classify them by these.
+      subroutine classify_alike(place, count)
+         integer, intent(in) :: place(:)
+         integer, intent(in) :: count
+         type(window_record_t) :: found(size(place))
+         type(ending_t) :: endings(size(place))
+         real(dp), allocatable :: states(:, :, :), accelerations(:)
+         integer :: k
+
+         allocate (states(count*finer, maxval(state_size(scenes(place)%resolved%problem)), size(place)), source=0.0_dp)
+         allocate (accelerations(count*finer))
+         do k = 1, size(place)
+            found(k)%wants = .false.
+         end do
+         call unlock_texts()
+         call solve_motions(scenes(place)%resolved%problem, records(place)%start, &
+                            request_t(accuracy=scenes(1)%request%accuracy, periods=count, samples_per_period=finer, &
+                                      sampled_periods=count), states, endings, records=found)
+         call lock_texts()
+         do k = 1, size(place)
+            if (.not. is_success(endings(k)%status)) cycle
+            associate (own => place(k), scene => scenes(place(k)))
+               call accelerations_of_samples(scene%resolved%problem, finer, states(:, :, k), accelerations)
+               call classify_window(scene%spectrum, scene%resolved%problem, count, accelerations, found(k), &
+                                    scene%resolved%noise_floor, by_samples(own))
+               if (.not. by_samples(own)%spectrum%sampling_sufficient) cycle
+               verdicts(own) = by_samples(own)
+               classified_by(own) = finer
+            end associate
+         end do
+      end subroutine classify_alike
+
+   end subroutine classify_finer
+
+   !> Look for a periodic motion at the ends of motions that are off their harmonics, and follow those that are irregular still beside
+   !> neighbours. After a signal to stop the answers are of no use.
+   subroutine follow_irregular(scenes, group, followed)
+      type(prepared_scene_t), intent(in) :: scenes(:)
+      !> The classified scenes
+      type(scene_group_t), intent(inout) :: group
+      !> Which of them; absent: all
+      logical, intent(in), optional :: followed(:)
+      type(periodic_orbit_t) :: orbit
+      type(parting_t), allocatable :: partings(:)
+      type(path_t), allocatable :: passed(:)
+      logical :: is_left(size(scenes))
+      integer, allocatable :: left(:)
+      integer :: i
+
+      is_left = has_window(group%endings(:size(scenes)))
+      if (present(followed)) is_left = is_left .and. followed
+      where (is_left) is_left = group%verdicts(:size(scenes))%class == class_irregular_so_far
+      left = pack([(i, i=1, size(scenes))], is_left)
+      do i = 1, size(left)
+         if (must_stop()) return
+         associate (place => left(i))
+            orbit = nearby_orbit(scenes(place)%resolved%problem, group%endings(place))
+            call note_orbit(group%verdicts(place), attracting_period(orbit))
+            if (orbit%period > 0) group%repeat_after(place) = orbit%period
+         end associate
+      end do
+      left = pack(left, group%verdicts(left)%class == class_irregular_so_far)
+      if (size(left) == 0) return
+      allocate (partings(size(left)), passed(size(left)))
+      call unlock_texts()
+      call follow_neighbours(scenes(left)%resolved%problem, group%endings(left)%motion_state_t, partings, passed)
+      call lock_texts()
+      do i = 1, size(left)
+         call note_parting(group%verdicts(left(i)), partings(i))
+         group%paths(left(i)) = passed(i)
+      end do
+   end subroutine follow_irregular
+
+   !> Records of some windows with Fourier integrals. The windows are solved again from where they begin, side by side; a window
+   !> that cannot be has no periods in its record.
+   function integral_windows(scenes, records, periods) result(windows)
+      type(prepared_scene_t), intent(in) :: scenes(:)
+      !> What the steps of their windows gave, and how many periods these have
+      type(window_record_t), intent(in) :: records(:)
+      integer, intent(in) :: periods(:)
+      type(window_record_t) :: windows(size(scenes))
+      type(motion_state_t) :: starts(size(scenes))
+      type(request_t) :: request
+      type(ending_t) :: ended(size(scenes))
+      integer :: i
+      real(dp), allocatable :: states(:, :, :)
+
+      request%accuracy = scenes(1)%request%accuracy
+      request%periods = maxval(periods)
+      request%sampled_periods = request%periods
+      request%samples_per_period = 1
+      request%every_period = .true.
+      do i = 1, size(scenes)
+         starts(i) = records(i)%start
+         starts(i)%periods = request%periods - periods(i)
+         windows(i) = integral_record(scenes(i)%spectrum)
+      end do
+      allocate (states(request%periods, maxval(state_size(scenes%resolved%problem)), size(scenes)), source=0.0_dp)
+      call unlock_texts()
+      call solve_motions(scenes%resolved%problem, starts, request, states, ended, records=windows)
+      call lock_texts()
+      do i = 1, size(scenes)
+         if (.not. is_success(ended(i)%status)) windows(i)%periods = 0
+      end do
+   end function integral_windows
+
+   !> An empty record that asks for Fourier integrals. Where all orders of the force are multiples of one, so may all harmonics be,
+   !> and as many of them are asked for as of a force whose orders have no common divisor.
+   pure function integral_record(spectrum) result(record)
+      !> Limits of the classes
+      type(spectrum_choice_t), intent(in) :: spectrum
+      type(window_record_t) :: record
+
+      record%wants = .false.
+      record%multiples = max(usual_multiples, 2*spectrum%idle_harmonics*common_divisor(spectrum%forced), &
+                             2*findloc(spectrum%forced, .true., dim=1, back=.true.))
+   end function integral_record
+
+   !> Greatest order of which all orders of a force are multiples.
+   pure integer function common_divisor(forced)
+      logical, intent(in) :: forced(:)
+      integer :: order
+
+      common_divisor = 1
+      ! It is no larger than the lowest of them.
+      do order = 2, findloc(forced, .true., dim=1)
+         if (count(forced(order::order)) == count(forced)) common_divisor = order
+      end do
+   end function common_divisor
+
+   !> Whether twice as many samples of a window may be enough.
+   elemental logical function may_be_finer(record, periods, samples_per_period)
+      !> What the steps of the window tell; no periods: it cannot be solved again
+      type(window_record_t), intent(in) :: record
+      !> Its periods, and the samples of each
+      integer, intent(in) :: periods
+      integer, intent(in) :: samples_per_period
+
+      may_be_finer = record%periods > 0 .and. record%shortest_piece > least_piece .and. &
+                     2*samples_per_period <= most_samples_per_period .and. 2*samples_per_period <= most_samples/max(1, periods)
+   end function may_be_finer
+
+end module classify_group
