@@ -79,7 +79,7 @@ STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
 VPATH := $(addprefix fsrc/,$(FOLDERS)) fsrc tests/unit tests/benchmarks tests/stress
 
 .DEFAULT_GOAL := all
-.PHONY: all run test test-long unit unit-debug user user-long lint debug python bench bench-build bench-changed trends stress stress-sample faults faults-sample touched sanitize mutants release-check doc test-cluster compilers clean install uninstall help format pages pictures FORCE
+.PHONY: all run test test-long unit unit-debug user user-long lint debug python bench bench-build bench-changed trends hashes stress stress-sample faults faults-sample touched sanitize mutants release-check doc test-cluster compilers clean install uninstall help format pages pictures FORCE
 
 all: $(BUILD)/rattle
 
@@ -92,6 +92,7 @@ help:
 	@echo 'make debug        build with every run-time check as $(BUILD)/debug/rattle'
 	@echo 'make python       Python environment and the module of the Fortran kernels'
 	@echo 'make trends       trends that test stands report, as the program has them'
+	@echo 'make hashes       hashes of what many runs write, as $(BUILD)/hashes.json, or held against those of another build (AGAINST=FILE)'
 	@echo 'make bench        speed of the program beside that of others, as tables; make bench-changed: its last'
 	@echo 'make stress       100000 random scenes: what users are told of them, and every engine (SCENES=N)'
 	@echo 'make mutants      break the code in one place at a time: does a test notice? (PART=1/20)'
@@ -263,6 +264,10 @@ bench-changed: bench-build
 # What the program says of the trends that test stands report: table and picture of tests/trends.
 trends: $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(PYTHON) tests/trends/run_trends.py
+
+# Do two builds write the same results? Of the one: make hashes; of the other: make hashes AGAINST=FILE. Two minutes on two cores.
+hashes: $(BUILD)/rattle $(PYTHON_ENV)/installed
+	@$(PYTHON) tests/reference/result_hashes.py $(BUILD)/rattle $(if $(AGAINST),--against $(AGAINST),--write $(BUILD)/hashes.json)
 
 bench-build: $(PYTHON_ENV)/installed
 	@$(MAKE) --no-print-directory BUILD=$(NATIVE_BUILD) NATIVE=1 $(addprefix $(NATIVE_BUILD)/,rattle $(NATIVE_BENCHES))
