@@ -139,8 +139,8 @@ TIMES = (
     (re.compile(r"\b\d[\d.]*(E[-+]?\d+)? (s|ms|min|h|seconds?)\b"), "TIME"),
     (re.compile(r"rattle \d+\.\d+\.\d+"), "rattle VERSION"),
 )
-# What a campaign prints now and then, and what its check expects.
-PASSING_LINES = re.compile(r" +\d+ of \d+ scenes, .* a second.*|! core time.*")
+# What is printed now and then, and how long a check expects a campaign to take.
+PASSING_LINES = re.compile(r" +\d+ of \d+ .*(a second|s left).*|! core time.*")
 
 
 @dataclass(frozen=True)
@@ -351,11 +351,13 @@ def hashes_of_summary(path: Path) -> Hashes:
 
 def hashes_of_text(text: str, folder: Path) -> Hashes:
     """The lines of what was printed, without times and paths."""
+    lines = [line for line in text.splitlines() if not PASSING_LINES.fullmatch(line)]
+    text = "\n".join(lines)
     for place in (folder, REPOSITORY):
         text = text.replace(f"{place}/", "")
     for pattern, word in TIMES:
         text = pattern.sub(word, text)
-    lines = [line for line in text.splitlines() if not PASSING_LINES.fullmatch(line)]
+    lines = text.splitlines()
     return {"lines": str(len(lines))} | {f"line {i}": short(line.encode()) for i, line in enumerate(lines, 1)}
 
 
