@@ -95,7 +95,7 @@ help:
 	@echo 'make hashes       hashes of what many runs write, as $(BUILD)/hashes.json, or held against those of another build (AGAINST=FILE)'
 	@echo 'make bench        speed of the program beside that of others, as tables; make bench-changed: its last'
 	@echo 'make stress       100000 random scenes: what users are told of them, and every engine (SCENES=N)'
-	@echo 'make mutants      break the code in one place at a time: does a test notice? (PART=1/20)'
+	@echo 'make mutants      break lines changed since SINCE=HEAD~20 in one place at a time: does a test notice? (SAMPLE=40)'
 	@echo 'make faults       runs that meet kills, full disks, little memory, failing calls, other runs, damaged and foreign files'
 	@echo 'make touched      how many files a new law, quantity, key, task or figure takes, by toys in a scratch copy'
 	@echo 'make sanitize     unit tests and small inputs under the sanitizers of the compiler for addresses and undefined behaviour'
@@ -282,10 +282,11 @@ stress: $(BUILD)/stress_summaries $(BUILD)/stress_scenes $(BUILD)/stress_motions
 	@$(BUILD)/stress_motions --scenes $$(($(SCENES)/50 + 1)) --csv $(BUILD)/stress_motions.csv
 	@$(BUILD)/lane_independence --scenes 3000
 
-# Does a test notice when the code is broken in one place? Hours; PART=3/20 is every twentieth mutant from the third on.
-PART := 1/1
+# Does a test notice when a changed line is broken in one place? Some minutes for each mutant.
+SINCE := HEAD~20
+SAMPLE := 40
 mutants: $(PYTHON_ENV)/installed
-	@$(PYTHON) tests/mutants/run_mutants.py --part $(PART) --scratch $(BUILD)/mutants
+	@$(PYTHON) tests/mutants/run_mutants.py --since $(SINCE) --sample $(SAMPLE) --scratch $(BUILD)/mutants
 
 # Kills, full disks, a fault at every output call, two runs at a time, flipped bits, foreign files. Some minutes.
 FAULTS := tests/faults/run_faults.py $(BUILD)/rattle $(BUILD)/faults

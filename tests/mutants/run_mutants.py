@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 """Break the code in one place at a time and see whether a test notices.
 
-Each mutant of mutants.txt is put into a scratch copy of the checkout. The file is compiled again, then the
-unit tests run, then the user tests of its folder, then all others, until one fails: the mutant is killed. One
-that no test notices has survived.
+    tests/mutants/run_mutants.py --since HEAD~20 --sample 40     # by the rules, in lines changed since then
+    tests/mutants/run_mutants.py --listed [--only PATTERN]       # those of mutants.txt, which no rule makes
+
+Each mutant is put into a scratch copy of the checkout. The file is compiled again, then the unit tests run,
+then the user tests of its folder, then all others, until one fails: the mutant is killed. One that no test
+notices has survived.
 """
 
 from __future__ import annotations
@@ -12,6 +15,7 @@ import argparse
 import csv
 import math
 import os
+import random
 import re
 import resource
 import shutil
@@ -20,10 +24,12 @@ import sys
 import threading
 import time
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from fnmatch import fnmatch
 from pathlib import Path
+
+from rules import changes
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 LIST = Path(__file__).with_name("mutants.txt")
@@ -34,100 +40,64 @@ PATIENCE, USER_LIMIT = 6.0, 900.0
 # A module, and the body of its procedures.
 FORTRAN = (".f90", ".inc")
 COLUMNS = ("number", "place", "reason", "outcome", "by", "seconds")
-KILLED, SURVIVED, SAME, BROKEN = "killed", "survived", "no difference", "does not build"
+KILLED, SURVIVED, BROKEN = "killed", "survived", "does not build"
 NEAR = "the tests near it"
+# What the rules are applied to; tables of coefficients are no code.
+MUTATED, TABLES = ("fsrc/*.f90", "fsrc/*.inc", "scripts/rattle/*.py"), "fsrc/film/coefficients/"
 
-# The user tests that most likely see a mutant, by the beginning of its path; the longest that fits counts.
-NEAREST_TESTS = {
-    "fsrc/foundation": ("bad_inputs", "written_files", "campaigns", "carrying_on"),
-    "fsrc/scene": (
-        "refused_tasks",
-        "columns",
-        "bad_inputs",
-        "check_and_template",
-        "varied_keys",
-        "tasks",
-        "commands",
-    ),
-    "fsrc/scene/signal": ("signal_axes", "force_signal"),
-    "fsrc/scene/mistaken_units": ("mistaken_units",),
-    "fsrc/scene/odd_numbers": ("mistaken_units", "sensible_numbers"),
-    "fsrc/film": ("columns", "kernels*", "tasks", "scenes_at_rest"),
-    "fsrc/gear": ("gear_inputs", "force_signal", "varied_keys"),
-    "fsrc/problem": ("two_flanks", "elastic_teeth", "tooth_stiffness", "force_orders", "scenes_at_rest"),
-    "fsrc/motion": (
-        "columns",
-        "tasks",
-        "carrying_on",
-        "varied_keys",
-        "run_endings",
-        "scenes_at_rest",
-        "campaigns",
-    ),
-    "fsrc/orbit": ("columns", "tasks", "scenes_at_rest"),
-    "fsrc/spectrum": ("kernels_spectrum", "classify_script", "tasks"),
-    "fsrc/verdict": ("kernels*", "tasks", "classify_script", "scenes_at_rest"),
-    "fsrc/files/input_difference": ("edited_inputs", "drag", "carrying_on"),
-    "fsrc/files/summary_file": ("mistaken_units", "tasks", "logs"),
-    "fsrc/files": (
-        "output_calls",
-        "written_files",
-        "carrying_on",
-        "output_places",
-        "run_endings",
-        "campaigns",
-        "full_disk",
-    ),
-    "fsrc/run": (
-        "columns",
-        "refused_tasks",
-        "tasks",
-        "run_endings",
-        "carrying_on",
-        "commands",
-        "check_and_template",
-        "varied_keys",
-        "force_orders",
-    ),
-    "fsrc/run/scene_report": ("two_flanks", "tooth_stiffness", "drag", "gear_inputs", "logs", "tasks"),
-    "fsrc/run/scene_summary": ("gear_inputs", "logs", "state_at_failure", "tasks"),
-    "fsrc/run/run_sweep": ("coarse_series", "logs", "tasks", "carrying_on", "run_endings"),
-    "fsrc/judgement/judge_scene": ("gearbox", "coarse_series", "rows_and_summaries"),
-    "fsrc/judgement/judged_scene": ("logs", "impacts", "separation", "rows_and_summaries", "tasks"),
-    "fsrc/campaign/threshold": ("thresholds", "threshold_scenes", "logs"),
-    "fsrc/judgement/finer_windows": ("rows_and_summaries", "coarse_series"),
-    "fsrc/campaign/run_campaign": ("logs", "campaigns", "carrying_on", "check_and_template", "commands"),
-    "fsrc/motion/nodal": ("resolved",),
-    "fsrc/judgement/scene_orbit": ("coexisting_motions", "coexisting_rows"),
-    "fsrc/judgement/follow_starts": ("coexisting_motions",),
-    "fsrc/campaign/handed_motions": ("coexisting_rows", "coexisting_motions"),
-    "fsrc/judgement/row_motions": ("coexisting_rows", "coexisting_motions"),
-    "fsrc/campaign/core_time": ("campaigns", "check_and_template", "commands", "thresholds"),
-    "fsrc/campaign/table_task": ("run_endings", "campaigns", "thresholds"),
-    "fsrc/campaign/campaign_progress": ("campaigns", "logs", "carrying_on", "run_endings"),
-    "fsrc/campaign": (
-        "varied_keys",
-        "tooth_stiffness",
-        "columns",
-        "refused_tasks",
-        "campaigns",
-        "carrying_on",
-        "odd_inputs",
-    ),
-    "fsrc/bindings": ("kernels*",),
-    "fsrc/main.f90": ("commands", "run_endings"),
-    "scripts/rattle/figures": ("drawn_*", "history", "coarse_series", "*figure_words", "overlay_words"),
-    "scripts/rattle/thresholds.py": ("drawn_thresholds", "figure_words", "overlay_words", "report_words"),
-    "scripts/rattle/kernels": ("kernels*",),
-    "scripts/rattle/merge.py": ("campaign_merge",),
-    "scripts/rattle/job_script.py": ("campaign_scripts",),
-    "scripts/rattle/rerun.py": ("report_words", "campaign_scripts"),
-    "scripts/rattle/exports.py": ("campaign_scripts", "export*"),
-    "scripts/rattle/report": ("report_words", "report", "drawn_thresholds", "summaries_of_results"),
-    "scripts/rattle/campaign_section.py": ("drawn_campaigns", "campaign_map"),
-    "scripts/rattle/verdict.py": ("classify_script",),
-    "scripts/rattle": ("result_reader", "campaign_reader", "summaries", "drawn_campaigns"),
-    "scripts": ("campaign_scripts",),
+# The user tests that most likely see a mutant, by the beginning of the name of its file, else by its
+# folder; the longest that fits counts.
+TESTS_OF_FILES = {
+    "signal": "signal_axes force_signal",
+    "mistaken_units": "mistaken_units",
+    "odd_numbers": "mistaken_units sensible_numbers",
+    "input_difference": "edited_inputs drag carrying_on",
+    "summary_file": "mistaken_units tasks logs",
+    "scene_report": "two_flanks tooth_stiffness drag gear_inputs logs tasks",
+    "scene_summary": "gear_inputs logs state_at_failure tasks",
+    "run_sweep": "coarse_series logs tasks carrying_on run_endings",
+    "judge_scene": "gearbox coarse_series rows_and_summaries",
+    "judged_scene": "logs impacts separation rows_and_summaries tasks",
+    "threshold": "thresholds threshold_scenes logs",
+    "finer_windows": "rows_and_summaries coarse_series",
+    "run_campaign": "logs campaigns carrying_on check_and_template commands",
+    "nodal": "resolved",
+    "scene_orbit": "coexisting_motions coexisting_rows",
+    "follow_starts": "coexisting_motions",
+    "handed_motions": "coexisting_rows coexisting_motions",
+    "row_motions": "coexisting_rows coexisting_motions",
+    "core_time": "campaigns check_and_template commands thresholds",
+    "table_task": "run_endings campaigns thresholds",
+    "campaign_progress": "campaigns logs carrying_on run_endings",
+    "main": "commands run_endings",
+    "thresholds": "drawn_thresholds figure_words overlay_words report_words",
+    "merge": "campaign_merge",
+    "job_script": "campaign_scripts",
+    "rerun": "report_words campaign_scripts",
+    "exports": "campaign_scripts export*",
+    "campaign_section": "drawn_campaigns campaign_map",
+    "verdict": "classify_script",
+}
+TESTS_OF_FOLDERS = {
+    "fsrc/foundation": "bad_inputs written_files campaigns carrying_on",
+    "fsrc/scene": "refused_tasks columns bad_inputs check_and_template varied_keys tasks commands",
+    "fsrc/film": "columns kernels* tasks scenes_at_rest",
+    "fsrc/gear": "gear_inputs force_signal varied_keys",
+    "fsrc/problem": "two_flanks elastic_teeth tooth_stiffness force_orders scenes_at_rest",
+    "fsrc/motion": "columns tasks carrying_on varied_keys run_endings scenes_at_rest campaigns",
+    "fsrc/orbit": "columns tasks scenes_at_rest",
+    "fsrc/spectrum": "kernels_spectrum classify_script tasks",
+    "fsrc/verdict": "kernels* tasks classify_script scenes_at_rest",
+    "fsrc/files": "output_calls written_files carrying_on output_places run_endings campaigns full_disk",
+    "fsrc/run": "columns refused_tasks tasks run_endings carrying_on commands check_and_template varied_keys",
+    "fsrc/campaign": "varied_keys tooth_stiffness columns refused_tasks campaigns carrying_on odd_inputs",
+    "fsrc/bindings": "kernels*",
+    "scripts/rattle/figures": "drawn_* history coarse_series *figure_words overlay_words",
+    "scripts/rattle/kernels": "kernels*",
+    "scripts/rattle/report": "report_words report drawn_thresholds summaries_of_results",
+    "scripts/rattle": "result_reader campaign_reader summaries drawn_campaigns",
+    "scripts": "campaign_scripts",
+    "fsrc/judgement": "columns tasks gearbox coarse_series rows_and_summaries coexisting_*",
 }
 # What the module of the kernels is made of.
 KERNEL_ROOMS = ("fsrc/foundation", "fsrc/film", "fsrc/spectrum", "fsrc/verdict", "fsrc/bindings")
@@ -152,16 +122,22 @@ class ListError(Exception):
 
 @dataclass(frozen=True)
 class Mutant:
-    """One change of one file: its text, what it becomes, and what kind of mistake that is."""
+    """One change of one file: its text, what it becomes, and what kind of mistake that is.
+
+    The text begins at `start`, or stands there once only.
+    """
 
     number: int
     path: str
     reason: str
     original: str
     changed: str
-    no_difference: str
+    start: int = -1
 
     def apply(self, text: str) -> str:
+        if self.start >= 0:
+            assert text.startswith(self.original, self.start)
+            return text[: self.start] + self.changed + text[self.start + len(self.original) :]
         if text.count(self.original) != 1:
             raise ListError(
                 f"mutant {self.number} ({self.path}, {self.reason}): its text stands there "
@@ -176,7 +152,7 @@ def read_list(path: Path = LIST) -> list[Mutant]:
     for block in path.read_text(encoding="ascii").split("\n@ ")[1:]:
         head, *lines = block.splitlines()
         place, _, reason = head.partition(": ")
-        parts: dict[str, list[str]] = {"-": [], "+": [], "=": []}
+        parts: dict[str, list[str]] = {"-": [], "+": []}
         for line in lines:
             if line and not line.startswith("#"):
                 parts.get(line[0], []).append(line[2:])
@@ -184,7 +160,7 @@ def read_list(path: Path = LIST) -> list[Mutant]:
         number = len(mutants) + 1
         if not (reason and original and parts["+"]) or original == changed:
             raise ListError(f"mutant {number} ({head}) is incomplete")
-        mutants.append(Mutant(number, place, reason, original, changed, " ".join(parts["="])))
+        mutants.append(Mutant(number, place, reason, original, changed))
     keys = Counter((one.path, one.reason) for one in mutants)
     if keys.most_common(1)[0][1] > 1:
         raise ListError(f"two mutants have one name: {keys.most_common(1)[0][0]}")
@@ -200,6 +176,48 @@ def check(mutants: Sequence[Mutant], root: Path = REPOSITORY) -> list[str]:
         except (ListError, OSError) as fault:
             faults.append(str(fault))
     return faults
+
+
+def changed_lines(since: str) -> Iterator[tuple[str, set[int]]]:
+    """The lines of each file that a revision has not, counted from 1."""
+    command = ["git", "diff", "--unified=0", "--no-renames", "--no-ext-diff", since, "--", *MUTATED]
+    ended = subprocess.run(command, cwd=REPOSITORY, capture_output=True, text=True, check=True)
+    for part in ended.stdout.split("\n+++ b/")[1:]:
+        path = part.partition("\n")[0]
+        hunks = re.findall(r"^@@ -\S+ \+(\d+)(?:,(\d+))? @@", part, re.MULTILINE)
+        lines = {line for first, count in hunks for line in range(int(first), int(first) + int(count or 1))}
+        if lines and not path.startswith(TABLES):
+            yield path, lines
+
+
+def by_rule(since: str, seed: int) -> list[Mutant]:
+    """All mutants of the changed lines in an order of chance: one of each line before a second."""
+    dice = random.Random(seed)
+    found = []
+    for path, lines in changed_lines(since):
+        text = (REPOSITORY / path).read_text(encoding="utf-8")
+        made = changes(text, path.endswith(".py"), lines)
+        dice.shuffle(made)
+        of_rule: Counter[tuple[int, str]] = Counter()
+        of_line: Counter[int] = Counter()
+        ranked = []
+        for change in made:
+            line = text.count("\n", 0, change.start) + 1
+            of_rule[line, change.rule] += 1
+            ranked.append((of_rule[line, change.rule], line, change))
+        for _, line, change in sorted(ranked, key=lambda one: one[0]):
+            of_line[line] += 1
+            original = text[change.start : change.end]
+            reason = f"line {line}, {change.rule}: {_shown(original)} -> {_shown(change.text)}"
+            mutant = Mutant(0, path, reason, original, change.text, start=change.start)
+            found.append((of_line[line], dice.random(), mutant))
+    order = sorted(found, key=lambda one: one[:2])
+    return [replace(mutant, number=number) for number, (_, _, mutant) in enumerate(order, 1)]
+
+
+def _shown(text: str) -> str:
+    words = " ".join(text.split())
+    return words if len(words) <= 60 else f"{words[:40]} ... {words[-15:]}"
 
 
 class Scratch:
@@ -347,8 +365,11 @@ class Scratch:
         """The files of user tests that most likely see a change of `path`, and all others."""
         folder = self.place / "tests" / "user"
         every = {found.stem.removeprefix("test_"): found for found in sorted(folder.glob("test_*.py"))}
-        folder = max((start for start in NEAREST_TESTS if path.startswith(start)), key=len)
-        near = [name for wish in NEAREST_TESTS[folder] for name in every if fnmatch(name, wish)]
+        of_file = [start for start in TESTS_OF_FILES if Path(path).stem.startswith(start)]
+        of_folder = [start for start in TESTS_OF_FOLDERS if path.startswith(start)]
+        wishes = TESTS_OF_FOLDERS[max(of_folder, key=len)] if of_folder else ""
+        wishes = TESTS_OF_FILES[max(of_file, key=len)] if of_file else wishes
+        near = [name for wish in wishes.split() for name in every if fnmatch(name, wish)]
         # The test of the list would see every mutant, by its text.
         blind = {"mutants"}
         if path.startswith("scripts"):
@@ -393,103 +414,80 @@ def judge(mutant: Mutant, scratch: Scratch, near_only: bool) -> tuple[str, str]:
             scratch.make_kernels()
 
 
-def run(mutants: Sequence[Mutant], scratch: Scratch, path: Path, near_only: bool) -> Counter[str]:
-    """Judge those that have no row in the CSV yet, one after another, and write a row for each."""
+def run(
+    mutants: Sequence[Mutant], scratch: Scratch, path: Path, near_only: bool, sample: int
+) -> Counter[str]:
+    """Judge those that have no row in the CSV yet, one after another, and write a row for each.
+
+    Those that do not build do not count to the sample.
+    """
     outcomes: Counter[str] = Counter()
     path.parent.mkdir(parents=True, exist_ok=True)
     known = {(row["place"], row["reason"]) for row in rows_of(path)} if path.exists() else set()
-    with path.open("a", newline="", encoding="ascii") as stream:
+    with path.open("a", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         if stream.tell() == 0:
             writer.writerow(COLUMNS)
         for mutant in mutants:
+            if outcomes.total() - outcomes[BROKEN] >= sample:
+                break
             if (mutant.path, mutant.reason) in known:
                 continue
             started = time.monotonic()
-            outcome, found = SAME, mutant.no_difference
-            if not mutant.no_difference:
+            outcome, found = judge(mutant, scratch, near_only)
+            while outcome == KILLED and scratch.sees_nothing(found):
                 outcome, found = judge(mutant, scratch, near_only)
-                while outcome == KILLED and scratch.sees_nothing(found):
-                    outcome, found = judge(mutant, scratch, near_only)
             seconds = f"{time.monotonic() - started:.0f}"
             writer.writerow([mutant.number, mutant.path, mutant.reason, outcome, found, seconds])
             stream.flush()
-            print(f"{mutant.number:4d}  {outcome:14s} {mutant.path}, {mutant.reason}  {found}", flush=True)
+            print(f"{outcome:14s} {mutant.path}, {mutant.reason}  {found}", flush=True)
             outcomes[outcome] += 1
     return outcomes
 
 
 def rows_of(path: Path) -> list[dict[str, str]]:
     """Results that stand in a CSV."""
-    with path.open(newline="", encoding="ascii") as stream:
+    with path.open(newline="", encoding="utf-8") as stream:
         return list(csv.DictReader(stream))
-
-
-def table(paths: Sequence[Path]) -> str:
-    """Results of several parts in Markdown: a line for each folder, then the survivors. Later results
-    count."""
-    found = {}
-    for path in paths:
-        found.update({(row["place"], row["reason"]): row for row in rows_of(path)})
-    order = [(one.path, one.reason) for one in read_list()]
-    rows = [found[key] for key in order if key in found]
-    counts: dict[str, Counter[str]] = {}
-    for row in rows:
-        parts = row["place"].split("/")
-        folder = "/".join(parts[:-1]) if parts[0] == "scripts" else "/".join(parts[:2])
-        for name in (folder, "**all**"):
-            counts.setdefault(name, Counter())[row["outcome"]] += 1
-    counts["**all**"] = counts.pop("**all**", Counter())
-    lines = ["| place | killed | survived | no difference |", "| --- | ---: | ---: | ---: |"]
-    lines += [f"| {folder} | {n[KILLED]} | {n[SURVIVED]} | {n[SAME]} |" for folder, n in counts.items()]
-    survivors = [row for row in rows if row["outcome"] == SURVIVED]
-    lines += ["", f"{len(rows)} of {len(order)} mutants of the list were tried. Survivors:", ""]
-    lines += [f"- `{row['place']}`: {row['reason']}" for row in survivors]
-    return "\n".join(lines)
-
-
-def part_of(text: str) -> tuple[int, int]:
-    part, _, parts = text.partition("/")
-    if not (part.isdigit() and parts.isdigit() and 1 <= int(part) <= int(parts)):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a part such as 1/10")
-    return int(part), int(parts)
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument(
-        "--part", type=part_of, default=(1, 1), metavar="K/N", help="every N-th mutant from the K-th"
+        "--since", default="HEAD~20", metavar="REV", help="rules are applied to lines newer than it"
     )
-    parser.add_argument("--only", metavar="PATTERN", help="those whose 'NUMBER FILE: REASON' it matches")
+    parser.add_argument("--sample", type=int, default=40, metavar="N", help="so many of the mutants by rule")
+    parser.add_argument("--seed", type=int, default=1, help="of the sample")
+    parser.add_argument("--listed", action="store_true", help="the mutants of mutants.txt instead")
+    parser.add_argument("--only", default="", metavar="PATTERN", help="those whose 'FILE: REASON' it matches")
     parser.add_argument(
         "--near", action="store_true", help="leave out the tests of other folders, which take minutes"
     )
     parser.add_argument("--scratch", type=Path, default=REPOSITORY / "build" / "mutants", metavar="DIR")
-    parser.add_argument("--csv", type=Path, help="where the results go; by default beside the scratch copy")
     parser.add_argument(
-        "--check", action="store_true", help="only see that every mutant applies exactly once"
-    )
-    parser.add_argument(
-        "--table", nargs="+", type=Path, metavar="CSV", help="print the table of these results"
+        "--check",
+        action="store_true",
+        help="see that every listed mutant applies once, or list those by rule",
     )
     options = parser.parse_args()
-    if options.table:
-        print(table(options.table))
-        return 0
-    mutants = read_list()
+    mutants = read_list() if options.listed else by_rule(options.since, options.seed)
+    mutants = [one for one in mutants if re.search(options.only, f"{one.path}: {one.reason}")]
     faults = check(mutants)
     if faults or options.check:
-        print("\n".join(faults) or f"{len(mutants)} mutants apply.")
+        names = [] if options.listed else [f"{one.path}: {one.reason}" for one in mutants]
+        print("\n".join([*names, *faults]))
+        print(f"{len(mutants)} mutants, of which {len(faults)} do not apply.")
         return 1 if faults else 0
-    part, parts = options.part
-    wanted = re.compile(options.only or "")
-    chosen = [
-        one for one in mutants[part - 1 :: parts] if wanted.search(f"{one.number} {one.path}: {one.reason}")
-    ]
+    path = options.scratch / ("listed.csv" if options.listed else "sample.csv")
+    if not options.listed:
+        path.unlink(missing_ok=True)
+        print(f"{len(mutants)} mutants by rule in the lines changed since {options.since}")
     scratch = Scratch(options.scratch.resolve(), sys.executable)
-    path = options.csv or options.scratch / f"part-{part}-of-{parts}.csv"
-    outcomes = run(chosen, scratch, path, options.near)
+    outcomes = run(mutants, scratch, path, options.near, len(mutants) if options.listed else options.sample)
     print(", ".join(f"{count} {outcome}" for outcome, count in outcomes.items()))
+    for row in rows_of(path):
+        if row["outcome"] == SURVIVED:
+            print(f"survived: {row['place']}, {row['reason']}")
     return 0
 
 
