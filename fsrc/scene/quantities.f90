@@ -94,7 +94,7 @@ module quantities
       !> Where it is told, besides the words of its codes: any of summary, sweep, flanks (a sweep of scenes with a backlash),
       !> gears (a sweep of gears), campaign (a word of its key record), log
       character(28) :: told_in
-      character(160) :: meaning
+      character(168) :: meaning
       !> Words of the codes, from the first code on, a bar between two
       character(160) :: words = ''
       integer :: first_code = 0
