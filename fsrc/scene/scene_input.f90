@@ -1,7 +1,6 @@
 !> The input of one scene as typed values, one per line of the key table, each with its place.
 module scene_input
    use errors, only: fault_list_t
-   use former_names, only: present_key
    use input_entry, only: continues_list, entry_t, new_entry, set_entry
    use input_key, only: integer_kind, key_t, real_kind
    use key_table, only: find_key, keys, known_group, nearest_group, nearest_key
@@ -95,7 +94,7 @@ contains
             ! A key that is set on the command line is set in every pair.
             if (assignment%group == repeated_group .and. .not. overriding .and. assignment%occurrence /= self%pair) cycle
             if (len(assignment%key) == 0) cycle
-            position = find_key(assignment%group, present_key(assignment%group, assignment%key))
+            position = find_key(assignment%group, assignment%key)
             if (position == 0) then
                if (assignment%sound) call faults%add(file, assignment%line, assignment%group, assignment%key, &
                                                    'unknown key; '//nearest_key(assignment%group, assignment%key))
@@ -108,7 +107,6 @@ contains
                cycle
             end if
             call set_entry(keys(position), assignment, self%entries(position), file, faults)
-            if (assignment%key /= keys(position)%name) self%entries(position)%former = assignment%key
          end associate
       end do
    end subroutine set_all

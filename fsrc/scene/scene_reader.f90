@@ -3,7 +3,6 @@
 module scene_reader
    use errors, only: fault_list_t, last_error, not_permitted
    use file_system, only: read_whole_file
-   use former_names, only: present_word, renamed_text
    use input_entry, only: numbers_text, place_of, value_text
    use input_key, only: name_limit, table_kind
    use key_table, only: find_key, keys, starts_group
@@ -168,7 +167,7 @@ contains
       scene%output = read_output(input)
       scene%lines = input%entries%line
       scene%resolved_input = resolved_text(input, trim(scene%name))//input%found
-      scene%warnings = [scene%warnings, former_names_of_input(input), odd_numbers_of_input(input), odd_swings(input, scene%shaft), &
+      scene%warnings = [scene%warnings, odd_numbers_of_input(input), odd_swings(input, scene%shaft), &
                         published_film_of_gear(input)]
    end subroutine put_values
 
@@ -182,24 +181,6 @@ contains
       lines = [word_t('warning: '//place_of(input%entries(find_key('film', 'model')))//": the published films are those of the "// &
                       "paper's scenes, and off by factors for gear pairs; leave &film model out, or take 'reynolds'")]
    end function published_film_of_gear
-
-   !> What is said of former names of keys and quantities in an input.
-   function former_names_of_input(input) result(lines)
-      type(scene_input_t), intent(in) :: input
-      type(word_t), allocatable :: lines(:)
-      character(:), allocatable :: present
-      integer :: i
-
-      allocate (lines(0))
-      do i = 1, size(keys)
-         associate (entry => input%entries(i))
-            if (len(entry%former) == 0) cycle
-            present = present_word(entry%former)
-            if (present == entry%former) present = trim(keys(i)%name)
-            lines = [lines, word_t('warning: '//place_of(entry)//': '//renamed_text(entry%former, present))]
-         end associate
-      end do
-   end function former_names_of_input
 
    !> How faults call an input.
    pure function input_name(path) result(name)
