@@ -57,8 +57,8 @@ WIDE_REGISTERS := $(shell $(FC) $(ARCHITECTURE) -Q --help=target 2>/dev/null | a
   $$1 == "-mavx512f" && $$2 == "[enabled]" { wide = 1 } \
   $$1 == "-mprefer-vector-width=" && $$2 ~ /^(128|256)$$/ { narrow = 1 } \
   END { print wide && !narrow ? ".true." : ".false." }')
-# The folders of fsrc, in the order of the table in fsrc/README.md.
-MODULES := $(filter-out bindings,$(shell sed -n 's/^| `\([a-z]*\)\/` |.*/\1/p' fsrc/README.md))
+# The folders of fsrc that the program is made of; each uses only those before it.
+MODULES := foundation scene gear film contact problem motion orbit spectrum verdict files run campaign
 # Folders within folders that this build takes.
 PARTS := film/coefficients campaign/$(if $(MPI),mpi,serial)
 FOLDERS := $(foreach folder,$(MODULES),$(folder) $(filter $(folder)/%,$(PARTS)))

@@ -1,6 +1,6 @@
-"""Holds the repository against its own rules: data flows down the table of folders in fsrc/README.md, a file
-holds the module of its name, main is a table of contents, no library routine stops the program, and Python
-imports run one way."""
+"""Holds the repository against its own rules: data flows down the folders of fsrc in the order of the
+Makefile, which the table of fsrc/README.md repeats, a file holds the module of its name, main is a table of
+contents, no library routine stops the program, and Python imports run one way."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 os.chdir(Path(__file__).resolve().parents[1])
-MODULES = re.findall(r"^\| `(\w+)/` \|", Path("fsrc/README.md").read_text(), re.MULTILINE)
+MODULES = re.search(r"(?<=^MODULES := ).+", Path("Makefile").read_text(), re.MULTILINE)[0].split()
+MODULES.append("bindings")
+TABLE = re.findall(r"^\| `(\w+)/` \|", Path("fsrc/README.md").read_text(), re.MULTILINE)
 TOP_LEVEL = {"Makefile", "fsrc", "input", "scripts", "tests", "README.md"}
 TOP_LEVEL |= {"LICENSE", "CHANGELOG.md", "CITATION.cff", "pyproject.toml", "build", "results"}
 MAIN_LINES = 80
@@ -81,6 +83,8 @@ def below_problem(folder: str) -> bool:
 def faults() -> list[str]:
     """One sentence per broken rule."""
     found = [f"{entry.name}: does not belong to the layout" for entry in Path().iterdir() if is_stray(entry)]
+    if TABLE != MODULES:
+        found.append(f"fsrc/README.md: its table of folders is {TABLE}, the Makefile has {MODULES}")
     sources = sorted(Path("fsrc").glob("*/**/*.f90"))
     found += [
         f"{body}: no module of its name includes it"
@@ -95,7 +99,7 @@ def faults() -> list[str]:
     for path in sources:
         folder = module_of(path)
         if folder not in MODULES:
-            found.append(f"{path}: {folder} is no folder of the table in fsrc/README.md")
+            found.append(f"{path}: {folder} is no folder of MODULES in the Makefile")
             continue
         for number, line in enumerate(path.read_text().splitlines(), 1):
             place = f"{path}:{number}"
