@@ -211,7 +211,8 @@ end subroutine wrap_barus_pressure
 ! logarithm; then the scales of pressure [Pa] and line load [N/m].
 subroutine wrap_scale_film(si, groups, scales)
    use, intrinsic :: iso_c_binding, only: c_double
-   use numerical_reynolds, only: film_problem_t, scale_film
+   use numerical_reynolds, only: scale_film
+   use numerical_reynolds_grid, only: film_problem_t
    implicit none
    real(c_double), intent(in) :: si(6)
    real(c_double), intent(out) :: groups(5)
@@ -228,7 +229,9 @@ end subroutine wrap_scale_film
 subroutine wrap_solve_reynolds(groups, law, extrapolate, m, angle, pressure, results, counts)
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use numerical_reynolds, only: film_problem_t, film_solution_t, reynolds_converged, solve_reynolds
+   use numerical_reynolds, only: film_solution_t, solve_reynolds
+   use numerical_reynolds_grid, only: film_problem_t
+   use numerical_reynolds_rupture, only: reynolds_converged
    implicit none
    real(c_double), intent(in) :: groups(5)
    integer(c_int), intent(in) :: law

@@ -4,7 +4,7 @@
 ! R of (2).
 subroutine wrap_equivalent_radius(n, radius_1, radius_2, radius)
    use, intrinsic :: iso_c_binding, only: c_double, c_int
-   use regime, only: equivalent_radius
+   use flank_elasticity, only: equivalent_radius
    implicit none
    integer(c_int), intent(in) :: n
    real(c_double), intent(in) :: radius_1(n)
@@ -17,7 +17,7 @@ end subroutine wrap_equivalent_radius
 ! E* of (3).
 subroutine wrap_plane_strain_modulus(n, young_modulus, poisson_ratio, modulus)
    use, intrinsic :: iso_c_binding, only: c_double, c_int
-   use regime, only: plane_strain_modulus
+   use flank_elasticity, only: plane_strain_modulus
    implicit none
    integer(c_int), intent(in) :: n
    real(c_double), intent(in) :: young_modulus(n)

@@ -1,6 +1,6 @@
 !> What is known of a campaign before anything is solved: its plan, the share of this part, its columns, and that there is memory.
 module prepared_campaign
-   use campaign_file, only: campaign_layout_t
+   use campaign_header, only: campaign_layout_t
    use campaign_plan, only: count_invalid, plan_campaign
    use campaign_record, only: record_columns
    use errors, only: error_t, fault_list_t

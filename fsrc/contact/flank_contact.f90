@@ -50,8 +50,7 @@ module flank_contact
 
    public :: contact_of, contact_words, is_elastic, carries_positive_loads, keeps_load, is_costly, inner_count, inner_number, &
              inner_at_rest, film_under, load_of_contact, load_at_rest, loads_of_contact, mixed_loads, velocity_under, &
-             equations_of_films, compliance_at_rest, &
-             overflow_load, film_kernel, kernel_of_contact, film_over_gap, films_over_gaps, kept_load, most_films, width_compression
+             equations_of_films, compliance_at_rest, kernel_of_contact
 
 contains
 

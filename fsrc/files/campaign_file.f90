@@ -51,8 +51,6 @@ module campaign_file
       procedure, private :: expect_at_place
    end type campaign_file_t
 
-   public :: campaign_layout_t
-
 contains
 
    !> Make the file, without any chunk done. It comes to its path in one step, with its whole header.

@@ -14,10 +14,7 @@ module numerical_reynolds
    implicit none(type, external)
    private
 
-   public :: film_problem_t, film_solution_t, scale_film, solve_reynolds, log_viscosity_ratio
-   public :: law_constant, law_barus, law_roelands
-   public :: reynolds_converged, reynolds_no_rigid_film, reynolds_not_converged, reynolds_unresolved, &
-      reynolds_bad_input
+   public :: film_solution_t, scale_film, solve_reynolds
 
    integer, parameter :: minimum_cells = 16
    integer, parameter :: outlet_cells = 3

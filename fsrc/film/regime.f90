@@ -8,7 +8,7 @@ module regime
    implicit none(type, external)
    private
 
-   public :: equivalent_radius, plane_strain_modulus, contact_deflection, hertzian_pressure, grubin_film
+   public :: contact_deflection, hertzian_pressure, grubin_film
    public :: viscosity_group, elasticity_group, film_parameter, limiting_films, mapped_regime, film_regime
 
    !> Codes of the regime map, in the order of `limiting_films`.

@@ -10,8 +10,8 @@
 !> It is the paper's method for the paper's rigid teeth; the checker refuses it for elastic ones.
 module newmark_step
    use engine, only: request_t
+   use film_law, only: film_kernel, overflow_load
    use film_state, only: load_t
-   use flank_contact, only: film_kernel, overflow_load
    use kinds, only: dp
    use carried_loads, only: net_load
    use problem, only: problem_t, thinner_film
