@@ -6,9 +6,8 @@
 !> with and without a state are contacts of different numbers; one flank or two are one contact or two. Flanks that bend are
 !> compressed by what follows the width of the contact beside d, w(h, W) of module film_law.
 module flank_contact
-   use film_law, only: film_kernel, film_load, film_loads, film_over_gap, films_over_gaps, kept_load, kernel_of, film_t, &
-      law_words, mixed_film_loads, most_films, never_pulls, new_film, overflow_load, squeeze_velocities, squeeze_velocity, &
-      steady_film, width_compression
+   use film_law, only: film_kernel, film_load, film_loads, film_t, kept_load, kernel_of, law_words, mixed_film_loads, most_films, &
+      never_pulls, new_film, overflow_load, squeeze_velocities, squeeze_velocity, steady_film, width_compression
    use film_state, only: film_response_t, load_t, state_number_t
    use film_states, only: count_of_state, number_of_state, place_of_law, respond_of_state, rest_of_state, words_of_state
    use flank_elasticity, only: flank_compliance

@@ -3,7 +3,6 @@
 module regime
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use constants, only: two_pi
-   use flank_elasticity, only: equivalent_radius, plane_strain_modulus
    use kinds, only: dp
    implicit none(type, external)
    private

@@ -10,17 +10,17 @@ module test_inner_states
    use byte_file, only: put_in_place
    use film_states, only: add_film_state
    use judge_scene, only: judge, note_ending
-   use judged_scene, only: judged_scene_t, quantity_list, quantity_value
+   use judged_scene, only: judged_scene_t, quantity_value
    use key_table, only: find_key
    use kinds, only: dp, int64
    use many_motions, only: solve_motions
    use matrix_values, only: eigenvalues
    use output_place, only: state_path
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
-   use problem, only: contact_count, film_at_rest, films_at_rest, has_elastic_teeth, inner_places, of_drive_compression, &
-      of_film, of_velocity, problem_of, problem_t, state_numbers, state_size, static_load
-   use quantities, only: a_list, quantities_told_in, quantity_acceleration_maximum, quantity_verified, quantity_film_minimum, &
-                         quantity_rattle_class, quantity_table
+   use problem, only: contact_count, film_at_rest, has_elastic_teeth, inner_places, of_drive_compression, of_film, of_velocity, &
+      problem_of, problem_t, state_size, static_load
+   use quantities, only: quantity_acceleration_maximum, quantity_film_minimum, quantity_rattle_class, quantity_table, &
+      quantity_verified
    use relaxing_film, only: chain_length, relaxing_film_t
    use resolved_scene, only: request_of, resolve
    use resume, only: load_state, save_state
