@@ -34,7 +34,6 @@ module campaign_file
       procedure :: create => create_campaign
       procedure :: resume => resume_campaign
       procedure :: join => join_campaign
-      procedure :: is_locked
       procedure :: chunk_count
       procedure :: chunk_bounds
       procedure :: is_done
@@ -188,13 +187,6 @@ contains
                     'choose another name or output directory')
       if (outcome == lock_failed) call raise(error, exit_system, path//' cannot be locked: '//why)
    end subroutine take_lock
-
-   !> Whether other runs are kept out; false on file systems without locks.
-   pure logical function is_locked(self)
-      class(campaign_file_t), intent(in) :: self
-
-      is_locked = self%locked
-   end function is_locked
 
    !> See that the open file belongs to a layout, and read its table of chunks.
    subroutine attach(self, layout, error)

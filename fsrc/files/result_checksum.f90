@@ -11,7 +11,7 @@ module result_checksum
    implicit none(type, external)
    private
 
-   public :: checksum_of_result, checksum_of_new_result
+   public :: checksum_of_new_result
 
 contains
 

@@ -20,7 +20,7 @@ module newmark_step
    private
 
    !> A step in which the film loses more than this factor, or goes to zero and below, is cut in two.
-   real(dp), parameter, public :: smallest_film_ratio = 1.0e-3_dp
+   real(dp), parameter :: smallest_film_ratio = 1.0e-3_dp
    !> State of the motion.
    type, public :: newmark_state_t
       !> Film thickness h [m]

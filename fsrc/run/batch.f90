@@ -314,7 +314,7 @@ contains
 
       do i = 1, size(scenes)
          call expect_scene_memory(scenes(i), error)
-         if (allocated(error)) call faults%add_error(scenes(i)%source, 0, '', '', error)
+         if (allocated(error)) call faults%add_error(scenes(i)%source, '', '', error)
       end do
    end subroutine check_memory
 

@@ -494,7 +494,7 @@ contains
 
       if (input%is_faulty(group, name)) return
       call expect_memory(bytes, 'this', error)
-      if (allocated(error)) call faults%add_error(input%file, 0, group, name, error)
+      if (allocated(error)) call faults%add_error(input%file, group, name, error)
    end subroutine check_memory
 
    !> A campaign varies something, one way or another, and is solved by the engine of many lanes.

@@ -46,7 +46,6 @@ contains
 
       layout = layout_of(input)
       call create(checks, file, .false.)
-      call checks%check(file%is_locked(), 'locked')
       call checks%check(file%chunk_count() == chunks .and. .not. any(file%done_flags()), 'no chunk is done')
       undisturbed = content_of(path)
       call checks%check(long_at(undisturbed, 24_int64) == -1_int64, 'rows unknown')

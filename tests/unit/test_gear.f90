@@ -4,8 +4,8 @@ module test_gear
    use derived_scene, only: base_order
    use gear_contact, only: find_contact, gear_contact_t, gear_pair_t
    use kinds, only: dp
-   use oil_data, only: base_mineral, base_pao, base_polyglycol, kinematic_viscosity, oil_density, oil_pressure_viscosity, &
-                       oil_viscosity
+   use oil_data, only: kinematic_viscosity, oil_density, oil_pressure_viscosity, oil_viscosity
+   use scene_types, only: oil_mineral, oil_pao, oil_polyglycol
    implicit none(type, external)
    private
 
@@ -153,7 +153,7 @@ contains
       do i = 1, size(temperatures)
          ! Half a unit of the last digit that is known
          call checks%check_close(oil(temperatures(i))/viscosities(i), 1.0_dp, 4.0e-9_dp, 'mineral oil: viscosity')
-         call checks%check_close(oil_pressure_viscosity(base_mineral, oil(38.0_dp), temperatures(i))/coefficients(i), 1.0_dp, &
+         call checks%check_close(oil_pressure_viscosity(oil_mineral, oil(38.0_dp), temperatures(i))/coefficients(i), 1.0_dp, &
                                  merge(1.0e-8_dp, 5.0e-8_dp, i <= 3), 'mineral oil: pressure-viscosity coefficient')
       end do
    end subroutine test_mineral_oil
@@ -162,9 +162,9 @@ contains
    subroutine test_other_bases(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      call checks%check_close(oil_pressure_viscosity(base_pao, oil(38.0_dp), 40.0_dp)/1.25084897e-8_dp, 1.0_dp, 5.0e-9_dp, &
+      call checks%check_close(oil_pressure_viscosity(oil_pao, oil(38.0_dp), 40.0_dp)/1.25084897e-8_dp, 1.0_dp, 5.0e-9_dp, &
                               'PAO: pressure-viscosity coefficient')
-      call checks%check_close(oil_pressure_viscosity(base_polyglycol, oil(38.0_dp), 40.0_dp)/8.70226199e-9_dp, 1.0_dp, 5.0e-9_dp, &
+      call checks%check_close(oil_pressure_viscosity(oil_polyglycol, oil(38.0_dp), 40.0_dp)/8.70226199e-9_dp, 1.0_dp, 5.0e-9_dp, &
                               'polyglycol: pressure-viscosity coefficient')
    end subroutine test_other_bases
 
