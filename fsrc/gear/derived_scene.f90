@@ -253,7 +253,7 @@ contains
       position = find_key(group, name)
       if (is_computable(keys(position), value)) return
       write (sentence, '(3a, es9.2, 3a, es8.1, a, es8.1)') 'the ', name, ' that follows is ', value, ' ', &
-         trim(keys(position)%unit), '; possible:', keys(position)%computable%lower, ' to', keys(position)%computable%upper
+         trim(keys(position)%unit), '; possible:', keys(position)%computable(1), ' to', keys(position)%computable(2)
       call add(broken, cause, sentence)
    end subroutine demand
 
