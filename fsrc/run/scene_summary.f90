@@ -12,7 +12,7 @@ module scene_summary
       part_regime, &
                       part_scene, part_window, quantity_code, quantity_film_regime, quantity_harmonics, quantity_law_contradicted, &
                          quantity_orbit_period, quantity_t, quantity_table, quantity_word
-   use result_checksum, only: checksum_of_new_result
+   use result_reader, only: checksum_of_new_result
    use scene_report, only: acceleration_words, speed_meaning, verdict_sentence
    use scene_status, only: is_success, status_name, status_no_rigid_film, status_not_written, status_sentence
    use scene_types, only: scene_t, task_film
