@@ -13,8 +13,8 @@ module test_inner_states
    use judged_scene, only: judged_scene_t, quantity_value
    use key_table, only: find_key
    use kinds, only: dp, int64
+   use linear_equations, only: eigenvalues
    use many_motions, only: solve_motions
-   use matrix_values, only: eigenvalues
    use output_place, only: state_path
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
    use problem, only: contact_count, film_at_rest, has_elastic_teeth, inner_places, of_drive_compression, of_film, of_velocity, &
