@@ -269,8 +269,7 @@ contains
       if (sound) return
       entry%faulty = .true.
       allowed = allowed_text(key)
-      if (key%kind == text_kind .and. key%choices == '') &
-         allowed = allowed//' of at most '//integer_text(path_limit)//' characters'
+      if (key%kind == text_kind .and. key%choices == '') allowed = allowed//' of at most '//integer_text(path_limit)//' characters'
       if (key%kind == text_kind .and. key%choices /= '' .and. key%default /= '') &
          allowed = allowed//"; without this key: '"//trim(key%default)//"'"
       if (any(key%kind == [real_kind, reals_kind]) .and. .not. value%quoted) allowed = allowed//meant_behind(key, entry%number)

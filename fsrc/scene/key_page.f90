@@ -73,8 +73,7 @@ contains
             last = last + 1
          end do
          text = text//'## &'//trim(keys(first)%group)//end_of_line//end_of_line
-         if (any([(len(tasks_of(keys(i))) == 0, i=first, last)])) &
-            call add_table(text, keys(first:last), '', is_told(first:last))
+         if (any([(len(tasks_of(keys(i))) == 0, i=first, last)])) call add_table(text, keys(first:last), '', is_told(first:last))
          do i = first, last
             if (.not. is_told(i)) call add_table(text, keys(first:last), tasks_of(keys(i)), is_told(first:last))
          end do

@@ -1,6 +1,7 @@
 !> The input of one scene as typed values, one per line of the key table, each with its place.
 module scene_input
    use errors, only: fault_list_t
+   use file_system, only: lies_inside
    use input_entry, only: continues_list, entry_t, new_entry, set_entry
    use input_key, only: integer_kind, key_t, real_kind
    use key_table, only: find_key, keys, known_group, nearest_group, nearest_key
@@ -22,6 +23,8 @@ module scene_input
       integer :: line_of_pair = 0
       !> What was found on the way from its files to its keys, as comments of the resolved input
       character(:), allocatable :: found
+      !> What is wrong with it
+      type(fault_list_t) :: faults
    contains
       procedure :: set_all
       procedure :: put_numbers
@@ -39,7 +42,10 @@ module scene_input
       procedure :: words => words_of
       procedure :: numbers => numbers_of
       procedure :: columns => columns_of
-      procedure :: add_fault
+      procedure :: file_path
+      procedure :: path_beside
+      procedure, private :: folder
+      procedure :: refuse
       procedure :: tell
    end type scene_input_t
 
@@ -69,7 +75,7 @@ contains
    end function new_scene_input
 
    !> Take the assignments of a text; later calls (overrides) replace earlier values.
-   subroutine set_all(self, assignments, file, overriding, faults)
+   subroutine set_all(self, assignments, file, overriding)
       class(scene_input_t), intent(inout) :: self
       !> Assignments in their order
       type(assignment_t), intent(in) :: assignments(:)
@@ -77,8 +83,6 @@ contains
       character(*), intent(in) :: file
       !> Whether a key may be set that an earlier call has set
       logical, intent(in) :: overriding
-      !> Faults are appended
-      type(fault_list_t), intent(inout) :: faults
       character(:), allocatable :: reported
       integer :: i, position
 
@@ -86,7 +90,7 @@ contains
       do i = 1, size(assignments)
          associate (assignment => assignments(i))
             if (.not. known_group(assignment%group)) then
-               if (assignment%group /= reported) call faults%add(file, assignment%line, assignment%group, '', &
+               if (assignment%group /= reported) call self%faults%add(file, assignment%line, assignment%group, '', &
                                                'unknown group; the nearest known group is &'//nearest_group(assignment%group))
                reported = assignment%group
                cycle
@@ -96,17 +100,17 @@ contains
             if (len(assignment%key) == 0) cycle
             position = find_key(assignment%group, assignment%key)
             if (position == 0) then
-               if (assignment%sound) call faults%add(file, assignment%line, assignment%group, assignment%key, &
-                                                   'unknown key; '//nearest_key(assignment%group, assignment%key))
+               if (assignment%sound) call self%faults%add(file, assignment%line, assignment%group, assignment%key, &
+                                                          'unknown key; '//nearest_key(assignment%group, assignment%key))
                cycle
             end if
             if (self%entries(position)%given .and. .not. overriding .and. &
                 .not. continues_list(keys(position), assignment, self%entries(position))) then
-               call faults%add(file, assignment%line, assignment%group, assignment%key, &
-                               'this key is set in line '//integer_text(self%entries(position)%line)//' already')
+               call self%faults%add(file, assignment%line, assignment%group, assignment%key, &
+                                    'this key is set in line '//integer_text(self%entries(position)%line)//' already')
                cycle
             end if
-            call set_entry(keys(position), assignment, self%entries(position), file, faults)
+            call set_entry(keys(position), assignment, self%entries(position), file, self%faults)
          end associate
       end do
    end subroutine set_all
@@ -286,20 +290,51 @@ contains
       choices = [(word_position(trim(keys(position)%choices), words(i)%text), i=1, size(words))]
    end function choices_of
 
-   !> Add a fault at the place of a key: where it was set, or without a line if it was not.
-   subroutine add_fault(self, group, name, message, faults)
+   !> Path of the file that a key names; empty, with a fault, if it lies elsewhere than in the folder of the input: an input and its
+   !> data move together.
+   function file_path(self, group, name) result(path)
+      class(scene_input_t), intent(inout) :: self
+      character(*), intent(in) :: group
+      character(*), intent(in) :: name
+      character(:), allocatable :: path
+
+      path = self%path_beside(self%word(group, name))
+      if (lies_inside(path, self%folder())) return
+      call self%refuse(group, name, 'the file lies outside the folder of this input; bring it there')
+      path = ''
+   end function file_path
+
+   !> A path as it is if it begins with the root, else from the folder of the input; empty stays empty.
+   pure function path_beside(self, given) result(path)
       class(scene_input_t), intent(in) :: self
+      !> The path that the input names
+      character(*), intent(in) :: given
+      character(:), allocatable :: path
+
+      path = given
+      if (len(given) > 0 .and. index(given, '/') /= 1) path = self%folder()//given
+   end function path_beside
+
+   !> Folder of the input with a slash at its end; empty for the working folder.
+   pure function folder(self)
+      class(scene_input_t), intent(in) :: self
+      character(:), allocatable :: folder
+
+      folder = self%file(:index(self%file, '/', back=.true.))
+   end function folder
+
+   !> Add a fault at the place of a key: where it was set, or without a line if it was not.
+   subroutine refuse(self, group, name, message)
+      class(scene_input_t), intent(inout) :: self
       character(*), intent(in) :: group
       character(*), intent(in) :: name
       !> What is wrong and what is allowed
       character(*), intent(in) :: message
-      !> List to append to
-      type(fault_list_t), intent(inout) :: faults
 
       associate (entry => self%entries(find_key(group, name)))
-         call faults%add(entry%file, entry%line, group, name, message)
+         call self%faults%add(entry%file, entry%line, group, name, message)
       end associate
-   end subroutine add_fault
+   end subroutine refuse
 
    !> Tell what was found in a file.
    pure subroutine tell(self, finding)

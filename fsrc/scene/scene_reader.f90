@@ -52,7 +52,6 @@ contains
       type(fault_list_t), intent(inout) :: faults
       type(assignment_t), allocatable :: assignments(:)
       type(scene_input_t), allocatable :: inputs(:)
-      type(fault_list_t) :: own
       character(:), allocatable :: content, file
       integer :: stat, before, i
       logical :: is_input
@@ -83,20 +82,19 @@ contains
       deallocate (scenes)
       allocate (scenes(size(inputs)))
       do i = 1, size(inputs)
-         own = fault_list_t()
-         call set_all_keys(inputs(i), assignments, file, overrides, own)
+         call set_all_keys(inputs(i), assignments, file, overrides)
          allocate (scenes(i)%warnings(0))
          call inputs(i)%choose_defaults()
-         call take_signal(inputs(i), 'load', scenes(i)%warnings, own)
-         call take_signal(inputs(i), 'shaft', scenes(i)%warnings, own)
-         call take_drag_table(inputs(i), scenes(i)%gear, own)
-         call take_excitation_table(inputs(i), scenes(i)%shaft, own)
-         if (is_input) call check_together(inputs(i), own)
-         call read_name(inputs(i), path, scenes(i)%name, own)
-         call read_pair_name(inputs(i), scenes(:i), own)
+         call take_signal(inputs(i), 'load', scenes(i)%warnings)
+         call take_signal(inputs(i), 'shaft', scenes(i)%warnings)
+         call take_drag_table(inputs(i), scenes(i)%gear)
+         call take_excitation_table(inputs(i), scenes(i)%shaft)
+         if (is_input) call check_together(inputs(i))
+         call read_name(inputs(i), path, scenes(i)%name)
+         call read_pair_name(inputs(i), scenes(:i))
          scenes(i)%source = file
          ! What the pairs share is found wrong with each of them.
-         call faults%take(own)
+         call faults%take(inputs(i)%faults)
       end do
       call faults%sort_since(before)
       if (faults%count() > before) return
@@ -126,25 +124,24 @@ contains
    end subroutine begin_inputs
 
    !> Set the keys of the file, and those of the command line over them.
-   subroutine set_all_keys(input, assignments, file, overrides, faults)
+   subroutine set_all_keys(input, assignments, file, overrides)
       type(scene_input_t), intent(inout) :: input
       !> Of the file
       type(assignment_t), intent(in) :: assignments(:)
       character(*), intent(in) :: file
       type(override_t), intent(in) :: overrides(:)
-      type(fault_list_t), intent(inout) :: faults
       type(assignment_t), allocatable :: set(:)
       integer :: i
 
-      call input%set_all(assignments, file, .false., faults)
+      call input%set_all(assignments, file, .false.)
       do i = 1, size(overrides)
-         call scan_namelists(overrides(i)%text, overrides(i)%source, 0, set, faults)
+         call scan_namelists(overrides(i)%text, overrides(i)%source, 0, set, input%faults)
          ! The group itself counts as one; a value that goes on with keys or groups of its own sets more.
          if (size(set) > 2) then
-            call faults%add(overrides(i)%source, 0, '', '', 'one key is set at a time; give an option of its own to each')
+            call input%faults%add(overrides(i)%source, 0, '', '', 'one key is set at a time; give an option of its own to each')
             cycle
          end if
-         call input%set_all(set, overrides(i)%source, .true., faults)
+         call input%set_all(set, overrides(i)%source, .true.)
       end do
    end subroutine set_all_keys
 
@@ -193,11 +190,10 @@ contains
    end function input_name
 
    !> &scene name: as given, or the stem of the file.
-   subroutine read_name(input, path, name, faults)
-      type(scene_input_t), intent(in) :: input
+   subroutine read_name(input, path, name)
+      type(scene_input_t), intent(inout) :: input
       character(*), intent(in) :: path
       character(*), intent(out) :: name
-      type(fault_list_t), intent(inout) :: faults
       character(:), allocatable :: stem
       integer :: dot
 
@@ -213,30 +209,28 @@ contains
          if (dot > 1) stem = stem(:dot - 1)
       end if
       name = stem
-      call check_name(input, 'scene', stem, faults)
+      call check_name(input, 'scene', stem)
    end subroutine read_name
 
    !> A name of files is of plain letters.
-   subroutine check_name(input, group, name, faults)
-      type(scene_input_t), intent(in) :: input
+   subroutine check_name(input, group, name)
+      type(scene_input_t), intent(inout) :: input
       !> Whose name it is
       character(*), intent(in) :: group
       character(*), intent(in) :: name
-      type(fault_list_t), intent(inout) :: faults
       character(*), parameter :: legal = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-'
 
       if (len(name) > name_limit .or. verify(name, legal) > 0 .or. name == '.' .or. name == '..') &
-         call input%add_fault(group, 'name', quoted(name(:min(len(name), 80)))//' is not allowed; allowed: 1 to '// &
-                              integer_text(name_limit)//' letters, digits, . _ -', faults)
+         call input%refuse(group, 'name', quoted(name(:min(len(name), 80)))//' is not allowed; allowed: 1 to '// &
+                           integer_text(name_limit)//' letters, digits, . _ -')
    end subroutine check_name
 
    !> &gear name. Several pairs need one each, which becomes the end of the names of their scenes; a campaign or threshold
    !> is one over all.
-   subroutine read_pair_name(input, scenes, faults)
-      type(scene_input_t), intent(in) :: input
+   subroutine read_pair_name(input, scenes)
+      type(scene_input_t), intent(inout) :: input
       !> Scenes of all pairs up to this one, the last
       type(scene_t), intent(inout) :: scenes(:)
-      type(fault_list_t), intent(inout) :: faults
       character(:), allocatable :: name
       integer :: i
       logical :: is_one_of_several
@@ -245,21 +239,21 @@ contains
       is_one_of_several = input%line_of_pair > 0
       name = input%word('gear', 'name')
       if (len(name) == 0) then
-         if (is_one_of_several) call input%add_fault('gear', 'name', 'several &gear stand here; each needs a name', faults)
+         if (is_one_of_several) call input%refuse('gear', 'name', 'several &gear stand here; each needs a name')
          return
       end if
       associate (scene => scenes(size(scenes)))
-         call check_name(input, 'gear', name, faults)
+         call check_name(input, 'gear', name)
          scene%gear%name = name
          if (.not. is_one_of_several) return
          do i = 1, size(scenes) - 1
             ! There are file systems that know no case.
             if (lower(trim(scenes(i)%gear%name)) /= lower(name)) cycle
-            call input%add_fault('gear', 'name', quoted(name)//' is also the name of an earlier &gear', faults)
+            call input%refuse('gear', 'name', quoted(name)//' is also the name of an earlier &gear')
             exit
          end do
-         if (len_trim(scene%name) + 1 + len(name) > name_limit) call input%add_fault('gear', 'name', 'the name of this pair, '// &
-            trim(scene%name)//'.'//name//', is longer than '//integer_text(name_limit)//' letters', faults)
+         if (len_trim(scene%name) + 1 + len(name) > name_limit) call input%refuse('gear', 'name', 'the name of this pair, '// &
+            trim(scene%name)//'.'//name//', is longer than '//integer_text(name_limit)//' letters')
          scene%gearbox = scene%name
          if (input%word('scene', 'task') /= 'campaign' .and. input%word('scene', 'task') /= 'threshold') &
             scene%name = trim(scene%name)//'.'//name
@@ -375,8 +369,7 @@ contains
             is_told = is_told .and. (input%is_given('contact', 'stiffness') .or. input%word('film', 'law') == 'elastohydrodynamic' &
                                      .or. input%number('gear', 'tooth_stiffness') > 0.0_dp)
          ! In a film task the absent model means more than its default.
-         if (keys(i)%name == 'model') &
-            is_told = is_told .and. (input%entries(i)%given .or. input%word('scene', 'task') /= 'film')
+         if (keys(i)%name == 'model') is_told = is_told .and. (input%entries(i)%given .or. input%word('scene', 'task') /= 'film')
       end function is_told
 
    end function resolved_text

@@ -3,7 +3,6 @@
 module signal_span
    use axis_unit, only: angle_axis, axis_unit_t, degrees, microseconds, milliseconds, no_axis, radians, seconds, time_axis
    use csv_signal, only: least_samples, recording_t
-   use errors, only: fault_list_t
    use kinds, only: dp
    use scene_input, only: scene_input_t
    use text, only: counted, integer_text, short_text
@@ -17,8 +16,8 @@ module signal_span
 contains
 
    !> Count the cycles of a recording.
-   subroutine count_cycles(input, group, path, recording, cycles, told, faults)
-      type(scene_input_t), intent(in) :: input
+   subroutine count_cycles(input, group, path, recording, cycles, told)
+      type(scene_input_t), intent(inout) :: input
       !> 'load' or 'shaft'
       character(*), intent(in) :: group
       !> Path of the file
@@ -29,8 +28,6 @@ contains
       integer, intent(out) :: cycles
       !> What tells them, in a few words
       character(:), allocatable, intent(out) :: told
-      !> Faults are appended
-      type(fault_list_t), intent(inout) :: faults
       type(axis_unit_t) :: unit
       character(:), allocatable :: message
       real(dp) :: length
@@ -60,7 +57,7 @@ contains
          end if
       end associate
       if (len(message) == 0) return
-      call faults%add(path, 0, '', '', message)
+      call input%faults%add(path, 0, '', '', message)
       cycles = 0
    end subroutine count_cycles
 

@@ -1,6 +1,5 @@
 !> The groups of tasks other than a single motion: &points, &sweep, &campaign, &threshold.
 module task_reader
-   use input_path, only: path_beside
    use key_table, only: find_swept_key, keys
    use keys_in_use, only: in_use
    use kinds, only: dp
@@ -94,7 +93,7 @@ contains
       campaign%sample = input%choice('campaign', 'sample')
       campaign%size = input%count('campaign', 'size')
       campaign%seed = input%count('campaign', 'seed')
-      campaign%csv = path_beside(input, input%word('campaign', 'csv'))
+      campaign%csv = input%path_beside(input%word('campaign', 'csv'))
       allocate (recorded, source=split_words(input%words('campaign', 'record')))
       allocate (campaign%record(size(recorded)))
       do i = 1, size(recorded)

@@ -137,7 +137,8 @@ contains
       type(assignment_t), allocatable :: assignments(:)
 
       call scan_namelists(text, 'f', 1, assignments, faults)
-      call input%set_all(assignments, 'f', overriding, faults)
+      call input%set_all(assignments, 'f', overriding)
+      call faults%take(input%faults)
    end subroutine take
 
 end module test_scene_input
