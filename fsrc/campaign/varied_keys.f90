@@ -40,7 +40,7 @@ contains
          message = 'unknown group; the nearest known group is '//nearest_group(group)
          return
       end if
-      position = find_key(group, key)
+      position = find_key(lower(name))
       if (position == 0) then
          message = 'unknown key; '//nearest_key(group, key)
       else if (keys(position)%kind /= real_kind .and. keys(position)%kind /= integer_kind) then
@@ -54,7 +54,7 @@ contains
 
    !> Position in the key table of the key that stands for a gear pair as a whole, by its number.
    pure integer function pair_position()
-      pair_position = find_key('gear', 'name')
+      pair_position = find_key('gear.name')
    end function pair_position
 
    !> What a varied key is called in results.

@@ -39,8 +39,7 @@ contains
       do i = 1, size(broken)
          associate (key => broken(i)%keys)
             dot = index(key, '.')
-            call faults%add(scene%source, scene%lines(find_key(key(:dot - 1), key(dot + 1:))), key(:dot - 1), trim(key(dot + 1:)), &
-                            trim(broken(i)%sentence))
+            call faults%add(scene%source, scene%lines(find_key(key)), key(:dot - 1), trim(key(dot + 1:)), trim(broken(i)%sentence))
          end associate
       end do
       if (size(broken) > 0) return
@@ -113,7 +112,7 @@ contains
       integer :: i, key
 
       ends = scene%oil%temperature_celsius
-      key = find_key('oil', 'temperature_celsius')
+      key = find_key('oil.temperature_celsius')
       if (scene%task == task_sweep) then
          if (scene%sweep%key == key) ends = [minval(scene%sweep%values), maxval(scene%sweep%values)]
       end if

@@ -135,8 +135,8 @@ contains
 
       allocate (broken(0))
       if (scene%oil%given) then
-         call demand(broken, 'lubricant', 'viscosity', scene%lubricant%viscosity, 'oil.temperature_celsius')
-         call demand(broken, 'lubricant', 'pressure_viscosity', scene%lubricant%pressure_viscosity, 'oil.temperature_celsius')
+         call demand(broken, 'lubricant.viscosity', scene%lubricant%viscosity, 'oil.temperature_celsius')
+         call demand(broken, 'lubricant.pressure_viscosity', scene%lubricant%pressure_viscosity, 'oil.temperature_celsius')
       end if
       if (scene%oil%given .and. .not. scene%gear%given) broken = [broken, broken_elastic_rules(scene)]
       if (.not. scene%gear%given) return
@@ -145,19 +145,19 @@ contains
          call add(broken, 'gear.'//wrong, message)
          return
       end if
-      call demand(broken, 'contact', 'radius', scene%contact%radius, 'gear.contact_position')
-      call demand(broken, 'contact', 'length', scene%contact%length, 'gear.face_width')
-      call demand(broken, 'kinematics', 'entrainment_speed', scene%kinematics%entrainment_speed, 'shaft.speed_rpm')
-      call demand(broken, 'load', 'mass', scene%excitation%mass, 'gear.loose_inertia')
+      call demand(broken, 'contact.radius', scene%contact%radius, 'gear.contact_position')
+      call demand(broken, 'contact.length', scene%contact%length, 'gear.face_width')
+      call demand(broken, 'kinematics.entrainment_speed', scene%kinematics%entrainment_speed, 'shaft.speed_rpm')
+      call demand(broken, 'load.mass', scene%excitation%mass, 'gear.loose_inertia')
       call add_drag_rules(broken, scene)
       if (allocated(scene%shaft%table)) &
-         call demand_within(broken, 'shaft', 'speed_rpm', scene%shaft%speed_rpm, scene%shaft%table%speeds, 'shaft.table')
+         call demand_within(broken, 'shaft.speed_rpm', scene%shaft%speed_rpm, scene%shaft%table%speeds, 'shaft.table')
       base = base_order(scene%shaft%orders)
       if (.not. base > 0.0_dp) then
          call add(broken, orders_key(scene), 'they have no common divisor to repeat with; halves, thirds and the like have')
          return
       end if
-      call demand(broken, 'load', 'frequency', scene%excitation%frequency, 'shaft.speed_rpm')
+      call demand(broken, 'load.frequency', scene%excitation%frequency, 'shaft.speed_rpm')
       if (maxval(scene%excitation%force_orders) > highest_order) &
          call add(broken, orders_key(scene), 'the highest is too large a multiple of their common divisor')
       if (scene%solver%samples_per_period() < 4*maxval(scene%excitation%force_orders)) &
@@ -185,8 +185,8 @@ contains
          select case (scene%drag%known_by)
          case (drag_tabulated)
             cause = 'gear.drag_table'
-            call demand_within(broken, 'shaft', 'speed_rpm', scene%shaft%speed_rpm, gear%drag_table%speeds, cause)
-            call demand_within(broken, 'oil', 'temperature_celsius', scene%oil%temperature_celsius, &
+            call demand_within(broken, 'shaft.speed_rpm', scene%shaft%speed_rpm, gear%drag_table%speeds, cause)
+            call demand_within(broken, 'oil.temperature_celsius', scene%oil%temperature_celsius, &
                                gear%drag_table%temperatures, cause)
          case (drag_computed)
             cause = 'gear.bearing_mean_diameter'
@@ -202,7 +202,7 @@ contains
          case default
             cause = 'gear.drag_torque'
          end select
-         call demand(broken, 'load', 'steady_force', scene%excitation%steady_force, trim(cause))
+         call demand(broken, 'load.steady_force', scene%excitation%steady_force, trim(cause))
          if (scene%drag%known_by == drag_given .or. gear%backlash > 0.0_dp .or. scene%drag%torque > 0.0_dp) return
          write (sentence, '(a, es10.3, a)') 'without a backlash the drag torque must be positive; here it is', &
             scene%drag%torque, ' N m'
@@ -211,11 +211,10 @@ contains
    end subroutine add_drag_rules
 
    !> A value must lie within the rows of a table.
-   pure subroutine demand_within(broken, group, name, value, axis, table)
+   pure subroutine demand_within(broken, key, value, axis, table)
       type(rule_t), allocatable, intent(inout) :: broken(:)
       !> Key of the value
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      character(*), intent(in) :: key
       real(dp), intent(in) :: value
       !> Ascending
       real(dp), intent(in) :: axis(:)
@@ -224,9 +223,9 @@ contains
       character(sentence_length) :: sentence
 
       if (is_within(axis, value)) return
-      write (sentence, '(a, g0.7, 5a, 2(g0.7, a))') 'it is ', value, ' ', trim(keys(find_key(group, name))%unit), ' and ', &
-         trim(table), ' goes from ', axis(1), ' to ', axis(size(axis)), ' '//trim(keys(find_key(group, name))%unit)
-      call add(broken, group//'.'//name, sentence)
+      write (sentence, '(a, g0.7, 5a, 2(g0.7, a))') 'it is ', value, ' ', trim(keys(find_key(key))%unit), ' and ', &
+         trim(table), ' goes from ', axis(1), ' to ', axis(size(axis)), ' '//trim(keys(find_key(key))%unit)
+      call add(broken, key, sentence)
    end subroutine demand_within
 
    !> Add a rule that is broken.
@@ -239,20 +238,19 @@ contains
    end subroutine add
 
    !> A number that is derived must be one that can be computed with.
-   pure subroutine demand(broken, group, name, value, cause)
+   pure subroutine demand(broken, key, value, cause)
       type(rule_t), allocatable, intent(inout) :: broken(:)
       !> Its key
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      character(*), intent(in) :: key
       real(dp), intent(in) :: value
       !> Key that it follows from
       character(*), intent(in) :: cause
       character(sentence_length) :: sentence
       integer :: position
 
-      position = find_key(group, name)
+      position = find_key(key)
       if (is_computable(keys(position), value)) return
-      write (sentence, '(3a, es9.2, 3a, es8.1, a, es8.1)') 'the ', name, ' that follows is ', value, ' ', &
+      write (sentence, '(3a, es9.2, 3a, es8.1, a, es8.1)') 'the ', trim(keys(position)%name), ' that follows is ', value, ' ', &
          trim(keys(position)%unit), '; possible:', keys(position)%computable(1), ' to', keys(position)%computable(2)
       call add(broken, cause, sentence)
    end subroutine demand

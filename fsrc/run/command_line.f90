@@ -175,8 +175,7 @@ contains
          return
       end if
       command%overrides = [command%overrides, override_t(source, '&'//setting(:dot - 1)//' '//setting(dot + 1:equals)// &
-                                                         value_of(setting(:dot - 1), setting(dot + 1:equals - 1), &
-                                                                  setting(equals + 1:))//new_line('a')//'/')]
+                                                         value_of(setting(:equals - 1), setting(equals + 1:))//new_line('a')//'/')]
    end subroutine add_override
 
    !> A setting as it is told in faults: nobody reads thousands of numbers.
@@ -197,16 +196,16 @@ contains
    end function most_threads
 
    !> Value of an override; quotes around a text may be left out, the shell has eaten them.
-   pure function value_of(group, key, given) result(value)
-      character(*), intent(in) :: group
-      character(*), intent(in) :: key
+   pure function value_of(name, given) result(value)
+      !> As group.key
+      character(*), intent(in) :: name
       character(*), intent(in) :: given
       character(:), allocatable :: value
       integer :: position
 
       value = given
       ! An element of a list is a value like the list itself: vary(1) takes what vary takes.
-      position = find_key(lower(group), lower(key(:scan(key//'(', '(') - 1)))
+      position = find_key(lower(name(:scan(name//'(', '(') - 1)))
       if (position == 0 .or. len(given) == 0) return
       if (scan(given(1:1), '''"') > 0) return
       if (keys(position)%kind == text_kind) value = quoted(given)

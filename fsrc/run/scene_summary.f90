@@ -57,8 +57,8 @@ contains
       do i = 1, merge(0, size(profiles), judged%status == status_not_written)
          call summary%add('profiles_checksum', checksum_of_new_result(profiles(i)%text))
       end do
-      call summary%add('law', choice_word('film', 'law', scene%film%law))
-      call summary%add('model', choice_word('film', 'model', scene%film%model))
+      call summary%add('law', choice_word('film.law', scene%film%law))
+      call summary%add('model', choice_word('film.model', scene%film%model))
       if (scene%film%told /= '') call summary%add('model_text', trim(scene%film%told))
       call summary%add('speed_used', judged%resolved%problem%contact%film%speed)
       call summary%add('speed_meaning', speed_meaning(scene))

@@ -476,14 +476,14 @@ module key_table
 contains
 
    !> Position of a key in the table, 0 if there is none.
-   pure integer function find_key(group, name)
-      !> Namelist group, lower case
-      character(*), intent(in) :: group
-      !> Name in the group, lower case
+   pure integer function find_key(name)
+      !> As group.name, lower case
       character(*), intent(in) :: name
+      integer :: dot
 
+      dot = index(name, '.')
       do find_key = 1, size(keys)
-         if (keys(find_key)%group == group .and. keys(find_key)%name == name) return
+         if (keys(find_key)%group == name(:dot - 1) .and. keys(find_key)%name == name(dot + 1:)) return
       end do
       find_key = 0
    end function find_key
@@ -508,15 +508,15 @@ contains
    end function key_name
 
    !> The word of a choice, from its code: its position among the choices of the key.
-   pure function choice_word(group, name, code) result(word)
-      character(*), intent(in) :: group
+   pure function choice_word(name, code) result(word)
+      !> As group.name
       character(*), intent(in) :: name
       !> Position, from 1
       integer, intent(in) :: code
       character(:), allocatable :: word
       type(word_t), allocatable :: words(:)
 
-      allocate (words, source=split_words(keys(find_key(group, name))%choices))
+      allocate (words, source=split_words(keys(find_key(name))%choices))
       word = words(code)%text
    end function choice_word
 

@@ -35,14 +35,14 @@ contains
          call check_speed(input)
       end if
       call check_film_model(input)
-      if (input%word('solver', 'method') == 'newmark') call check_newmark(input)
+      if (input%word('solver.method') == 'newmark') call check_newmark(input)
       call check_rules(input)
-      call check_no_word_twice(input, 'output', 'columns')
+      call check_no_word_twice(input, 'output.columns')
       call check_columns(input)
-      call check_no_word_twice(input, 'points', 'compute')
-      call check_no_word_twice(input, 'campaign', 'vary')
-      call check_no_word_twice(input, 'campaign', 'record')
-      if (input%word('scene', 'task') == 'film') then
+      call check_no_word_twice(input, 'points.compute')
+      call check_no_word_twice(input, 'campaign.vary')
+      call check_no_word_twice(input, 'campaign.record')
+      if (input%word('scene.task') == 'film') then
          call check_points(input)
       else
          if (input%has_group('shaft')) then
@@ -51,9 +51,9 @@ contains
             call check_force(input)
          end if
          call check_window(input)
-         if (input%word('scene', 'task') == 'sweep') call check_sweep(input)
-         if (input%word('scene', 'task') == 'campaign') call check_campaign(input)
-         if (input%word('scene', 'task') == 'threshold') call check_threshold(input)
+         if (input%word('scene.task') == 'sweep') call check_sweep(input)
+         if (input%word('scene.task') == 'campaign') call check_campaign(input)
+         if (input%word('scene.task') == 'threshold') call check_threshold(input)
       end if
    end subroutine check_together
 
@@ -80,8 +80,7 @@ contains
          real(dp), intent(in) :: number
 
          if (is_computable(keys(position), number)) return
-         call input%refuse(trim(keys(position)%group), trim(keys(position)%name), &
-                           not_computable_text(keys(position), number)//meant_behind(keys(position), number))
+         call input%refuse(key_name(position), not_computable_text(keys(position), number)//meant_behind(keys(position), number))
          input%entries(position)%faulty = .true.
       end subroutine check_number
 
@@ -96,13 +95,13 @@ contains
          if (keys(i)%default /= 'required' .or. .not. in_use(input, i)) cycle
          if (input%entries(i)%given .or. input%entries(i)%present) cycle
          ! Which keys a task requires is not known before the task is.
-         if (keys(i)%used_when /= '' .and. input%is_faulty('scene', 'task')) cycle
+         if (keys(i)%used_when /= '' .and. input%is_faulty('scene.task')) cycle
          if (keys(i)%given_by == 'oil' .and. input%has_group('gear')) then
-            call input%refuse(trim(keys(i)%group), trim(keys(i)%name), 'this key is required, or the data sheet of the oil '// &
+            call input%refuse(key_name(i), 'this key is required, or the data sheet of the oil '// &
                               'in &oil; allowed: '//allowed_text(keys(i)))
             cycle
          end if
-         call input%refuse(trim(keys(i)%group), trim(keys(i)%name), 'this key is required; allowed: '//allowed_text(keys(i)))
+         call input%refuse(key_name(i), 'this key is required; allowed: '//allowed_text(keys(i)))
       end do
    end subroutine check_required
 
@@ -114,11 +113,10 @@ contains
       do i = 1, size(keys)
          if (.not. input%entries(i)%given .or. in_use(input, i)) cycle
          if (keys(i)%given_by /= '' .and. input%has_group(trim(keys(i)%given_by))) then
-            call input%refuse(trim(keys(i)%group), trim(keys(i)%name), 'it follows from &'//trim(keys(i)%given_by)// &
-                              '; leave it out')
+            call input%refuse(key_name(i), 'it follows from &'//trim(keys(i)%given_by)//'; leave it out')
             cycle
          end if
-         call input%refuse(trim(keys(i)%group), trim(keys(i)%name), reason_unused(input, i))
+         call input%refuse(key_name(i), reason_unused(input, i))
       end do
    end subroutine check_used
 
@@ -127,12 +125,12 @@ contains
    subroutine check_newmark(input)
       type(scene_input_t), intent(inout) :: input
 
-      if (input%word('film', 'law') == 'elastohydrodynamic') then
-         call input%refuse('solver', 'method', 'the paper''s method is for the rigid flanks of the paper; take taylor')
-      else if (input%is_given('contact', 'stiffness') .or. input%number('gear', 'tooth_stiffness') > 0.0_dp) then
-         call input%refuse('solver', 'method', 'the paper''s method is for the rigid teeth of the paper; take taylor, or '// &
+      if (input%word('film.law') == 'elastohydrodynamic') then
+         call input%refuse('solver.method', 'the paper''s method is for the rigid flanks of the paper; take taylor')
+      else if (input%is_given('contact.stiffness') .or. input%number('gear.tooth_stiffness') > 0.0_dp) then
+         call input%refuse('solver.method', 'the paper''s method is for the rigid teeth of the paper; take taylor, or '// &
                            trim(merge('leave contact.stiffness out ', 'set gear.tooth_stiffness = 0', &
-                                         input%is_given('contact', 'stiffness'))))
+                                         input%is_given('contact.stiffness'))))
       end if
    end subroutine check_newmark
 
@@ -141,17 +139,14 @@ contains
       type(scene_input_t), intent(inout) :: input
       type(rule_t), allocatable :: broken(:)
       type(scene_t) :: scene
-      character(:), allocatable :: first
-      integer :: i, dot
+      integer :: i
 
       call input%put_numbers(scene)
       call input%put_laws(scene)
       allocate (broken, source=broken_rules(scene))
       do i = 1, size(broken)
          if (.not. is_clear(input, broken(i)%keys)) cycle
-         first = broken(i)%keys(:index(broken(i)%keys, ' ') - 1)
-         dot = index(first, '.')
-         call input%refuse(first(:dot - 1), first(dot + 1:), trim(broken(i)%sentence))
+         call input%refuse(broken(i)%keys(:index(broken(i)%keys, ' ') - 1), trim(broken(i)%sentence))
       end do
    end subroutine check_rules
 
@@ -161,15 +156,14 @@ contains
       !> As group.name, with blanks between
       character(*), intent(in) :: names
       type(word_t), allocatable :: words(:)
-      integer :: i, dot
+      integer :: i
 
       ! A backlash lifts the rule of the static load.
-      is_clear = (index(names, 'load.') /= 1 .or. .not. input%is_faulty('contact', 'backlash')) .and. &
-                 (index(names, 'gear.drag') /= 1 .or. .not. input%is_faulty('gear', 'backlash'))
+      is_clear = (index(names, 'load.') /= 1 .or. .not. input%is_faulty('contact.backlash')) .and. &
+                 (index(names, 'gear.drag') /= 1 .or. .not. input%is_faulty('gear.backlash'))
       allocate (words, source=split_words(names))
       do i = 1, size(words)
-         dot = index(words(i)%text, '.')
-         associate (entry => input%entries(find_key(words(i)%text(:dot - 1), words(i)%text(dot + 1:))))
+         associate (entry => input%entries(find_key(words(i)%text)))
             is_clear = is_clear .and. entry%present .and. .not. entry%faulty
          end associate
       end do
@@ -181,16 +175,16 @@ contains
       character(*), parameter :: rule = 'give either radius or both radius_1 and radius_2'
       logical :: single, first, second
 
-      single = input%is_given('contact', 'radius')
-      first = input%is_given('contact', 'radius_1')
-      second = input%is_given('contact', 'radius_2')
+      single = input%is_given('contact.radius')
+      first = input%is_given('contact.radius_1')
+      second = input%is_given('contact.radius_2')
       if (single .and. (first .or. second)) then
-         call input%refuse('contact', 'radius', rule)
+         call input%refuse('contact.radius', rule)
       else if (first .neqv. second) then
-         if (first) call input%refuse('contact', 'radius_1', rule)
-         if (second) call input%refuse('contact', 'radius_2', rule)
+         if (first) call input%refuse('contact.radius_1', rule)
+         if (second) call input%refuse('contact.radius_2', rule)
       else if (.not. (single .or. first)) then
-         call input%refuse('contact', 'radius', 'a radius is required: '//rule)
+         call input%refuse('contact.radius', 'a radius is required: '//rule)
       end if
    end subroutine check_radius
 
@@ -200,26 +194,26 @@ contains
       character(*), parameter :: rule = 'give exactly one of: entrainment_speed; rolling_speed; surface_speed_1 and surface_speed_2'
       logical :: mean, sum_, first, second, groups_given
 
-      groups_given = input%is_given('points', 'speed_groups') .or. input%is_given('points', 'speed_group_range')
-      mean = input%is_given('kinematics', 'entrainment_speed')
-      sum_ = input%is_given('kinematics', 'rolling_speed')
-      first = input%is_given('kinematics', 'surface_speed_1')
-      second = input%is_given('kinematics', 'surface_speed_2')
+      groups_given = input%is_given('points.speed_groups') .or. input%is_given('points.speed_group_range')
+      mean = input%is_given('kinematics.entrainment_speed')
+      sum_ = input%is_given('kinematics.rolling_speed')
+      first = input%is_given('kinematics.surface_speed_1')
+      second = input%is_given('kinematics.surface_speed_2')
       if (groups_given .and. (mean .or. sum_ .or. first .or. second)) then
-         call input%refuse('points', trim(merge('speed_groups     ', 'speed_group_range', &
-                                                   input%is_given('points', 'speed_groups'))), &
+         call input%refuse(trim(merge('points.speed_groups     ', 'points.speed_group_range', &
+                                      input%is_given('points.speed_groups'))), &
                            'give either speed groups or the speeds of &kinematics')
       else if (count([mean, sum_, first .or. second]) > 1) then
          if (mean) then
-            call input%refuse('kinematics', 'entrainment_speed', rule)
+            call input%refuse('kinematics.entrainment_speed', rule)
          else
-            call input%refuse('kinematics', 'rolling_speed', rule)
+            call input%refuse('kinematics.rolling_speed', rule)
          end if
       else if (first .neqv. second) then
-         if (first) call input%refuse('kinematics', 'surface_speed_1', rule)
-         if (second) call input%refuse('kinematics', 'surface_speed_2', rule)
+         if (first) call input%refuse('kinematics.surface_speed_1', rule)
+         if (second) call input%refuse('kinematics.surface_speed_2', rule)
       else if (.not. (mean .or. sum_ .or. first .or. groups_given)) then
-         call input%refuse('kinematics', 'entrainment_speed', 'a speed is required: '//rule)
+         call input%refuse('kinematics.entrainment_speed', 'a speed is required: '//rule)
       end if
    end subroutine check_speed
 
@@ -230,28 +224,27 @@ contains
       !> with large prime factors takes ten times as long.
       real(dp), parameter :: most_samples = 1.0e7_dp, most_of_any_number = 2.0e6_dp
 
-      if (input%is_faulty('spectrum', 'periods')) return
-      if (input%word('scene', 'task') == 'campaign' .or. input%word('scene', 'task') == 'threshold') then
-         call check_samples('campaign', 'samples_per_period')
-      else if (input%word('solver', 'method') == 'newmark') then
-         call check_samples('solver', 'steps_per_period')
+      if (input%is_faulty('spectrum.periods')) return
+      if (input%word('scene.task') == 'campaign' .or. input%word('scene.task') == 'threshold') then
+         call check_samples('campaign.samples_per_period')
+      else if (input%word('solver.method') == 'newmark') then
+         call check_samples('solver.steps_per_period')
       else
-         call check_samples('solver', 'samples_per_period')
+         call check_samples('solver.samples_per_period')
       end if
 
    contains
 
-      subroutine check_samples(group, name)
-         character(*), intent(in) :: group
-         character(*), intent(in) :: name
+      subroutine check_samples(key)
+         character(*), intent(in) :: key
          real(dp) :: samples
 
-         if (input%is_faulty(group, name)) return
-         samples = real(input%count('spectrum', 'periods'), dp)*real(input%count(group, name), dp)
+         if (input%is_faulty(key)) return
+         samples = real(input%count('spectrum.periods'), dp)*real(input%count(key), dp)
          if (samples > most_samples) then
-            call input%refuse(group, name, 'the window of &spectrum periods would hold more than 10000000 samples')
+            call input%refuse(key, 'the window of &spectrum periods would hold more than 10000000 samples')
          else if (samples > most_of_any_number .and. .not. has_small_factors(nint(samples))) then
-            call input%refuse(group, name, 'the window of &spectrum periods would hold more than 2000000 samples; '// &
+            call input%refuse(key, 'the window of &spectrum periods would hold more than 2000000 samples; '// &
                               'only a product of factors up to 13, such as a power of 2, may be as large')
          end if
       end subroutine check_samples
@@ -273,19 +266,19 @@ contains
    end subroutine check_window
 
    !> No word of a list twice.
-   subroutine check_no_word_twice(input, group, name)
+   subroutine check_no_word_twice(input, key)
       type(scene_input_t), intent(inout) :: input
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       type(word_t), allocatable :: words(:)
       integer :: i, j
 
-      if (input%is_faulty(group, name)) return
-      allocate (words, source=split_words(input%words(group, name)))
+      if (input%is_faulty(key)) return
+      allocate (words, source=split_words(input%words(key)))
       do i = 1, size(words)
          do j = i + 1, size(words)
             if (words(i)%text /= words(j)%text) cycle
-            call input%refuse(group, name, "'"//words(i)%text//"' is named twice")
+            call input%refuse(key, "'"//words(i)%text//"' is named twice")
             return
          end do
       end do
@@ -297,12 +290,12 @@ contains
       type(word_t), allocatable :: words(:)
       integer :: i
 
-      if (input%is_faulty('output', 'columns')) return
-      if (input%is_given('contact', 'backlash') .or. input%is_given('gear', 'backlash')) return
-      allocate (words, source=split_words(input%words('output', 'columns')))
+      if (input%is_faulty('output.columns')) return
+      if (input%is_given('contact.backlash') .or. input%is_given('gear.backlash')) return
+      allocate (words, source=split_words(input%words('output.columns')))
       do i = 1, size(words)
          if (index(words(i)%text, 'coast_') /= 1) cycle
-         call input%refuse('output', 'columns', "'"//words(i)%text//"' needs a coast flank: give "// &
+         call input%refuse('output.columns', "'"//words(i)%text//"' needs a coast flank: give "// &
                            trim(merge('gear.backlash   ', 'contact.backlash', input%has_group('gear'))))
       end do
    end subroutine check_columns
@@ -314,23 +307,23 @@ contains
       character(*), parameter :: law = "law = 'elastohydrodynamic'", bent(3) = [character(9) :: 'closure', 'resolved', 'automatic']
       logical :: numerical, elastic
 
-      numerical = input%word('film', 'model') == 'numerical'
-      elastic = input%word('scene', 'task') /= 'film' .and. input%word('film', 'law') == 'elastohydrodynamic'
-      if (numerical .and. input%word('scene', 'task') /= 'film') &
-         call input%refuse('film', 'model', "'numerical' is for task = 'film' only")
-      if (elastic .and. .not. (numerical .or. any(input%word('film', 'model') == bent))) &
-         call input%refuse('film', 'model', "the model of "//law//" is 'closure', 'resolved' or 'automatic'")
-      if (input%word('film', 'model') == 'resolved') call check_resolved(input, elastic)
-      if (input%word('film', 'model') == 'automatic') call check_automatic(input, elastic)
-      if (input%word('film', 'model') == 'closure' .and. .not. elastic) call input%refuse('film', 'model', "'closure' needs "//law)
-      if (input%word('lubricant', 'viscosity_law') == 'roelands' .and. .not. (numerical .or. elastic)) &
-         call input%refuse('lubricant', 'viscosity_law', "'roelands' needs "//law//", or task = 'film' and model = 'numerical'")
-      if (input%word('lubricant', 'viscosity_law') == 'constant' .and. .not. elastic) &
-         call input%refuse('lubricant', 'viscosity_law', "'constant' needs "//law)
+      numerical = input%word('film.model') == 'numerical'
+      elastic = input%word('scene.task') /= 'film' .and. input%word('film.law') == 'elastohydrodynamic'
+      if (numerical .and. input%word('scene.task') /= 'film') &
+         call input%refuse('film.model', "'numerical' is for task = 'film' only")
+      if (elastic .and. .not. (numerical .or. any(input%word('film.model') == bent))) &
+         call input%refuse('film.model', "the model of "//law//" is 'closure', 'resolved' or 'automatic'")
+      if (input%word('film.model') == 'resolved') call check_resolved(input, elastic)
+      if (input%word('film.model') == 'automatic') call check_automatic(input, elastic)
+      if (input%word('film.model') == 'closure' .and. .not. elastic) call input%refuse('film.model', "'closure' needs "//law)
+      if (input%word('lubricant.viscosity_law') == 'roelands' .and. .not. (numerical .or. elastic)) &
+         call input%refuse('lubricant.viscosity_law', "'roelands' needs "//law//", or task = 'film' and model = 'numerical'")
+      if (input%word('lubricant.viscosity_law') == 'constant' .and. .not. elastic) &
+         call input%refuse('lubricant.viscosity_law', "'constant' needs "//law)
       ! The default stands in the resolved input of pairs of which others are elastic.
-      if (.not. (input%flag('contact', 'flattening_included') .or. elastic .or. input%is_given('contact', 'stiffness') .or. &
-                 input%number('gear', 'tooth_stiffness') > 0.0_dp)) &
-         call input%refuse('contact', 'flattening_included', 'rigid flanks have nothing to include; give a stiffness or '//law)
+      if (.not. (input%flag('contact.flattening_included') .or. elastic .or. input%is_given('contact.stiffness') .or. &
+                 input%number('gear.tooth_stiffness') > 0.0_dp)) &
+         call input%refuse('contact.flattening_included', 'rigid flanks have nothing to include; give a stiffness or '//law)
    end subroutine check_film_model
 
    !> Films in nodes of pressure are those of a single motion from rest.
@@ -341,16 +334,16 @@ contains
       real(dp), parameter :: finest = 1.0e-5_dp
 
       if (.not. elastic) then
-         call input%refuse('film', 'model', "'resolved' needs law = 'elastohydrodynamic'")
+         call input%refuse('film.model', "'resolved' needs law = 'elastohydrodynamic'")
          return
       end if
-      if (input%word('scene', 'task') /= 'motion') &
-         call input%refuse('film', 'model', "'resolved' is for task = 'motion'; take 'closure' for many scenes")
-      if (.not. input%is_faulty('solver', 'accuracy') .and. input%number('solver', 'accuracy') < finest) &
-         call input%refuse('solver', 'accuracy', "too fine for model = 'resolved'; allowed: 1e-5 to 1e-2")
+      if (input%word('scene.task') /= 'motion') &
+         call input%refuse('film.model', "'resolved' is for task = 'motion'; take 'closure' for many scenes")
+      if (.not. input%is_faulty('solver.accuracy') .and. input%number('solver.accuracy') < finest) &
+         call input%refuse('solver.accuracy', "too fine for model = 'resolved'; allowed: 1e-5 to 1e-2")
       call check_nodes(input, 'resolved')
-      if (input%is_given('solver', 'starts') .and. input%count('solver', 'starts') > 1) &
-         call input%refuse('solver', 'starts', "model = 'resolved' follows the motion from rest alone; leave it out, or "// &
+      if (input%is_given('solver.starts') .and. input%count('solver.starts') > 1) &
+         call input%refuse('solver.starts', "model = 'resolved' follows the motion from rest alone; leave it out, or "// &
                            "look for others with model = 'closure'")
       call check_profiles(input)
    end subroutine check_resolved
@@ -362,13 +355,13 @@ contains
       logical, intent(in) :: elastic
 
       if (.not. elastic) then
-         call input%refuse('film', 'model', "'automatic' needs law = 'elastohydrodynamic'")
+         call input%refuse('film.model', "'automatic' needs law = 'elastohydrodynamic'")
          return
       end if
-      if (input%word('scene', 'task') /= 'motion' .and. input%word('scene', 'task') /= 'campaign') &
-         call input%refuse('film', 'model', "'automatic' is for task = 'motion' or 'campaign'; sweeps and thresholds follow "// &
+      if (input%word('scene.task') /= 'motion' .and. input%word('scene.task') /= 'campaign') &
+         call input%refuse('film.model', "'automatic' is for task = 'motion' or 'campaign'; sweeps and thresholds follow "// &
                            "motions from one value to the next, which films in nodes do not; take 'closure'")
-      if (input%word('solver', 'method') /= 'taylor') call input%refuse('film', 'model', "'automatic' needs the taylor method")
+      if (input%word('solver.method') /= 'taylor') call input%refuse('film.model', "'automatic' needs the taylor method")
       call check_nodes(input, 'automatic')
    end subroutine check_automatic
 
@@ -381,11 +374,11 @@ contains
       character(*), parameter :: starts(2) = [character(16) :: 'initial_film', 'initial_velocity']
       integer :: i
 
-      if (.not. input%is_faulty('film', 'nodes') .and. .not. any(input%count('film', 'nodes') == choices)) &
-         call input%refuse('film', 'nodes', 'not a number of nodes; allowed: 24, 32, 48, 64, 128')
+      if (.not. input%is_faulty('film.nodes') .and. .not. any(input%count('film.nodes') == choices)) &
+         call input%refuse('film.nodes', 'not a number of nodes; allowed: 24, 32, 48, 64, 128')
       do i = 1, size(starts)
-         if (input%is_given('film', trim(starts(i)))) &
-            call input%refuse('film', trim(starts(i)), "model = '"//model//"' starts from rest; leave it out")
+         if (input%is_given('film.'//starts(i))) &
+            call input%refuse('film.'//starts(i), "model = '"//model//"' starts from rest; leave it out")
       end do
    end subroutine check_nodes
 
@@ -397,15 +390,15 @@ contains
       integer :: i
 
       do i = 1, size(names)
-         if (input%is_given('output', trim(names(i))) .and. .not. input%flag('output', 'profiles')) &
-            call input%refuse('output', trim(names(i)), 'this key is used only with output.profiles = .true.')
+         if (input%is_given('output.'//names(i)) .and. .not. input%flag('output.profiles')) &
+            call input%refuse('output.'//names(i), 'this key is used only with output.profiles = .true.')
       end do
-      if (.not. input%is_given('output', 'profile_phases') .or. input%is_faulty('output', 'profile_phases')) return
-      if (input%is_given('output', 'profile_count')) &
-         call input%refuse('output', 'profile_count', 'it cannot stand beside output.profile_phases; leave one of the two out')
-      phases = input%numbers('output', 'profile_phases')
+      if (.not. input%is_given('output.profile_phases') .or. input%is_faulty('output.profile_phases')) return
+      if (input%is_given('output.profile_count')) &
+         call input%refuse('output.profile_count', 'it cannot stand beside output.profile_phases; leave one of the two out')
+      phases = input%numbers('output.profile_phases')
       if (any(phases(2:) <= phases(:size(phases) - 1))) &
-         call input%refuse('output', 'profile_phases', 'each phase has to be larger than the one before')
+         call input%refuse('output.profile_phases', 'each phase has to be larger than the one before')
    end subroutine check_profiles
 
    !> The ends of a sweep differ, its key allows the values between them, and its engine can follow it.
@@ -417,19 +410,19 @@ contains
       real(dp) :: ends(2)
       integer :: i, j, position
 
-      if (input%word('solver', 'method') /= 'taylor') call input%refuse('solver', 'method', 'a sweep needs the taylor method')
-      if (input%is_faulty('sweep', 'key') .or. input%is_faulty('sweep', 'first') .or. input%is_faulty('sweep', 'last')) return
-      if (.not. all([input%is_given('sweep', 'key'), input%is_given('sweep', 'first'), input%is_given('sweep', 'last')])) return
-      key = input%word('sweep', 'key')
+      if (input%word('solver.method') /= 'taylor') call input%refuse('solver.method', 'a sweep needs the taylor method')
+      if (input%is_faulty('sweep.key') .or. input%is_faulty('sweep.first') .or. input%is_faulty('sweep.last')) return
+      if (.not. all([input%is_given('sweep.key'), input%is_given('sweep.first'), input%is_given('sweep.last')])) return
+      key = input%word('sweep.key')
       position = find_swept_key(key)
       if (.not. in_use(input, position)) then
-         call input%refuse('sweep', 'key', 'the input does not use '//key_name(position)//'; sweep a key that it uses')
+         call input%refuse('sweep.key', 'the input does not use '//key_name(position)//'; sweep a key that it uses')
          return
       end if
-      ends = [input%number('sweep', 'first'), input%number('sweep', 'last')]
+      ends = [input%number('sweep.first'), input%number('sweep.last')]
       do i = 1, 2
          if (.not. in_range(keys(position), ends(i)) .or. &
-             (input%word('sweep', 'spacing') == 'logarithmic' .and. .not. ends(i) > 0.0_dp)) then
+             (input%word('sweep.spacing') == 'logarithmic' .and. .not. ends(i) > 0.0_dp)) then
             message = 'not allowed for '//key//'; allowed: '//allowed_text(keys(position))// &
                       ', and above zero where the spacing is logarithmic'
          else if (.not. is_computable(keys(position), ends(i))) then
@@ -437,12 +430,12 @@ contains
          else
             cycle
          end if
-         call input%refuse('sweep', trim(merge('first', 'last ', i == 1)), message)
+         call input%refuse('sweep.'//merge('first', 'last ', i == 1), message)
          return
       end do
-      if (.not. abs(ends(2) - ends(1)) > 0.0_dp) call input%refuse('sweep', 'last', 'it must differ from first')
+      if (.not. abs(ends(2) - ends(1)) > 0.0_dp) call input%refuse('sweep.last', 'it must differ from first')
       ! Measured with a margin: each motion has its own copy of the values.
-      call check_memory(input, 'sweep', 'count', 80.0_dp*real(input%count('sweep', 'count'), dp))
+      call check_memory(input, 'sweep.count', 80.0_dp*real(input%count('sweep.count'), dp))
       do i = 1, 2
          call input%put_numbers(swept)
          call input%put_laws(swept)
@@ -451,31 +444,34 @@ contains
          allocate (broken, source=broken_rules(swept))
          do j = 1, size(broken)
             if (index(broken(j)%keys, key_name(position)//' ') > 0 .and. is_clear(input, broken(j)%keys)) &
-               call input%refuse('sweep', trim(merge('first', 'last ', i == 1)), trim(broken(j)%sentence))
+               call input%refuse('sweep.'//merge('first', 'last ', i == 1), trim(broken(j)%sentence))
          end do
       end do
    end subroutine check_sweep
 
    !> There is memory for what a key makes large.
-   subroutine check_memory(input, group, name, bytes)
+   subroutine check_memory(input, key, bytes)
       type(scene_input_t), intent(inout) :: input
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       !> What it takes [bytes]
       real(dp), intent(in) :: bytes
       type(error_t), allocatable :: error
 
-      if (input%is_faulty(group, name)) return
+      if (input%is_faulty(key)) return
       call expect_memory(bytes, 'this', error)
-      if (allocated(error)) call input%faults%add_error(input%file, group, name, error)
+      if (.not. allocated(error)) return
+      associate (known => keys(find_key(key)))
+         call input%faults%add_error(input%file, trim(known%group), trim(known%name), error)
+      end associate
    end subroutine check_memory
 
    !> A campaign varies something, one way or another, and is solved by the engine of many lanes.
    subroutine check_campaign(input)
       type(scene_input_t), intent(inout) :: input
 
-      if (input%is_given('campaign', 'vary') .eqv. input%is_given('campaign', 'csv')) &
-         call input%refuse('campaign', 'vary', 'give either vary or csv')
+      if (input%is_given('campaign.vary') .eqv. input%is_given('campaign.csv')) &
+         call input%refuse('campaign.vary', 'give either vary or csv')
       call check_sample(input)
    end subroutine check_campaign
 
@@ -483,13 +479,13 @@ contains
    subroutine check_sample(input)
       type(scene_input_t), intent(inout) :: input
 
-      if (input%word('solver', 'method') /= 'taylor') &
-         call input%refuse('solver', 'method', 'a '//input%word('scene', 'task')//' needs the taylor method')
-      if (input%word('campaign', 'sample') /= 'grid' .and. .not. input%is_given('campaign', 'size')) &
-         call input%refuse('campaign', 'size', 'a sample needs its size')
-      if (.not. (input%is_faulty('campaign', 'part') .or. input%is_faulty('campaign', 'parts')) .and. &
-          input%count('campaign', 'part') > input%count('campaign', 'parts')) &
-         call input%refuse('campaign', 'part', 'at most parts ('//integer_text(input%count('campaign', 'parts'))//')')
+      if (input%word('solver.method') /= 'taylor') &
+         call input%refuse('solver.method', 'a '//input%word('scene.task')//' needs the taylor method')
+      if (input%word('campaign.sample') /= 'grid' .and. .not. input%is_given('campaign.size')) &
+         call input%refuse('campaign.size', 'a sample needs its size')
+      if (.not. (input%is_faulty('campaign.part') .or. input%is_faulty('campaign.parts')) .and. &
+          input%count('campaign.part') > input%count('campaign.parts')) &
+         call input%refuse('campaign.part', 'at most parts ('//integer_text(input%count('campaign.parts'))//')')
    end subroutine check_sample
 
    !> A threshold may stand alone or along the axes of &campaign; its criterion is one that the scene has.
@@ -500,20 +496,20 @@ contains
       logical :: takes_level
 
       call check_sample(input)
-      if (input%is_given('campaign', 'vary') .and. input%is_given('campaign', 'csv')) &
-         call input%refuse('campaign', 'vary', 'give either vary or csv, or neither')
-      if (input%is_faulty('threshold', 'criterion')) return
-      criterion = input%word('threshold', 'criterion')
+      if (input%is_given('campaign.vary') .and. input%is_given('campaign.csv')) &
+         call input%refuse('campaign.vary', 'give either vary or csv, or neither')
+      if (input%is_faulty('threshold.criterion')) return
+      criterion = input%word('threshold.criterion')
       code = quantity_code(criterion)
       takes_level = code > 0
       if (takes_level) takes_level = quantity_table(code)%kind == a_number .or. quantity_table(code)%kind == a_count
-      if (takes_level .and. .not. (input%is_given('threshold', 'level') .or. input%is_faulty('threshold', 'level'))) &
-         call input%refuse('threshold', 'level', criterion//' is a number: give the level that it has to reach')
-      if (input%is_given('threshold', 'level') .and. .not. takes_level) &
-         call input%refuse('threshold', 'level', criterion//' changes by itself and has no level; leave it out')
+      if (takes_level .and. .not. (input%is_given('threshold.level') .or. input%is_faulty('threshold.level'))) &
+         call input%refuse('threshold.level', criterion//' is a number: give the level that it has to reach')
+      if (input%is_given('threshold.level') .and. .not. takes_level) &
+         call input%refuse('threshold.level', criterion//' changes by itself and has no level; leave it out')
       if ((criterion == 'double_sided' .or. index(criterion, 'coast') > 0) .and. &
-          .not. (input%is_given('contact', 'backlash') .or. input%is_given('gear', 'backlash'))) &
-         call input%refuse('threshold', 'criterion', criterion//' needs a backlash')
+          .not. (input%is_given('contact.backlash') .or. input%is_given('gear.backlash'))) &
+         call input%refuse('threshold.criterion', criterion//' needs a backlash')
    end subroutine check_threshold
 
    !> One way to give each list of a film task, and no more points than anyone means.
@@ -526,9 +522,9 @@ contains
       call check_list('film_ratios', 'film_ratio_range', .true.)
       call check_list('squeeze_ratios', 'squeeze_ratio_range', .false.)
       call check_list('speed_groups', 'speed_group_range', .false.)
-      if (points <= most_points) call check_memory(input, 'points', 'film_ratio_range', 32.0_dp*points)
-      if (points > most_points) call input%refuse('points', 'film_ratio_range', 'the lists make more than 10000000 points')
-      if (mod(input%count('points', 'cells'), 2) /= 0) call input%refuse('points', 'cells', 'an even number is needed')
+      if (points <= most_points) call check_memory(input, 'points.film_ratio_range', 32.0_dp*points)
+      if (points > most_points) call input%refuse('points.film_ratio_range', 'the lists make more than 10000000 points')
+      if (mod(input%count('points.cells'), 2) /= 0) call input%refuse('points.cells', 'an even number is needed')
 
    contains
 
@@ -538,23 +534,23 @@ contains
          logical, intent(in) :: required
          real(dp), allocatable :: numbers(:)
 
-         if (input%is_faulty('points', list) .or. input%is_faulty('points', range)) return
-         if (input%is_given('points', list) .and. input%is_given('points', range)) then
-            call input%refuse('points', range, 'give either '//list//' or '//range)
-         else if (input%is_given('points', range)) then
-            numbers = input%numbers('points', range)
+         if (input%is_faulty('points.'//list) .or. input%is_faulty('points.'//range)) return
+         if (input%is_given('points.'//list) .and. input%is_given('points.'//range)) then
+            call input%refuse('points.'//range, 'give either '//list//' or '//range)
+         else if (input%is_given('points.'//range)) then
+            numbers = input%numbers('points.'//range)
             if (size(numbers) /= 3) then
-               call input%refuse('points', range, 'three numbers are needed: first, last, count')
+               call input%refuse('points.'//range, 'three numbers are needed: first, last, count')
             else if (.not. (numbers(3) >= 2.0_dp .and. numbers(3) <= most_points .and. &
                             abs(numbers(3) - anint(numbers(3))) <= 0.0_dp .and. numbers(2) > numbers(1))) then
-               call input%refuse('points', range, 'last must exceed first, and count be an integer >= 2')
+               call input%refuse('points.'//range, 'last must exceed first, and count be an integer >= 2')
             else
                points = points*numbers(3)
             end if
-         else if (required .and. .not. input%is_given('points', list)) then
-            call input%refuse('points', list, 'give '//list//' or '//range)
+         else if (required .and. .not. input%is_given('points.'//list)) then
+            call input%refuse('points.'//list, 'give '//list//' or '//range)
          else
-            points = points*real(max(1, size(input%numbers('points', list))), dp)
+            points = points*real(max(1, size(input%numbers('points.'//list))), dp)
          end if
       end subroutine check_list
 

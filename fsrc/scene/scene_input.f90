@@ -98,7 +98,7 @@ contains
             ! A key that is set on the command line is set in every pair.
             if (assignment%group == repeated_group .and. .not. overriding .and. assignment%occurrence /= self%pair) cycle
             if (len(assignment%key) == 0) cycle
-            position = find_key(assignment%group, assignment%key)
+            position = find_key(assignment%group//'.'//assignment%key)
             if (position == 0) then
                if (assignment%sound) call self%faults%add(file, assignment%line, assignment%group, assignment%key, &
                                                           'unknown key; '//nearest_key(assignment%group, assignment%key))
@@ -135,12 +135,12 @@ contains
       class(scene_input_t), intent(in) :: self
       type(scene_t), intent(inout) :: scene
 
-      scene%film%law = self%choice('film', 'law')
-      scene%film%model = self%choice('film', 'model')
+      scene%film%law = self%choice('film.law')
+      scene%film%model = self%choice('film.model')
       scene%film%automatic = scene%film%model == model_automatic
       if (scene%film%automatic) scene%film%model = model_closure
-      scene%lubricant%viscosity_law = self%choice('lubricant', 'viscosity_law')
-      scene%contact%flattening_included = self%flag('contact', 'flattening_included')
+      scene%lubricant%viscosity_law = self%choice('lubricant.viscosity_law')
+      scene%contact%flattening_included = self%flag('contact.flattening_included')
    end subroutine put_laws
 
    !> Defaults that hang on other keys: gear pairs have their own, the elastohydrodynamic law its model, and no other law another
@@ -158,27 +158,27 @@ contains
          self%entries(i) = new_entry(key, self%file)
          self%entries(i)%line = line
       end do
-      if (self%word('film', 'law') == 'elastohydrodynamic') then
-         if (.not. self%is_given('film', 'model')) self%entries(find_key('film', 'model'))%word = 'closure'
-         i = find_key('solver', 'accuracy')
-         if (self%word('film', 'model') == 'resolved' .and. .not. self%entries(i)%given) then
+      if (self%word('film.law') == 'elastohydrodynamic') then
+         if (.not. self%is_given('film.model')) self%entries(find_key('film.model'))%word = 'closure'
+         i = find_key('solver.accuracy')
+         if (self%word('film.model') == 'resolved' .and. .not. self%entries(i)%given) then
             key = keys(i)
             key%default = '1.0e-3'
             self%entries(i) = new_entry(key, self%file)
          end if
       else
-         i = find_key('lubricant', 'viscosity_law')
+         i = find_key('lubricant.viscosity_law')
          if (.not. self%entries(i)%given) self%entries(i)%word = trim(keys(i)%default)
       end if
    end subroutine choose_defaults
 
    !> Whether the user set a key.
-   pure logical function is_given(self, group, name)
+   pure logical function is_given(self, key)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
 
-      is_given = self%entries(find_key(group, name))%given
+      is_given = self%entries(find_key(key))%given
    end function is_given
 
    !> Whether the user set any key of a group.
@@ -190,117 +190,117 @@ contains
    end function has_group
 
    !> Whether a key was set to something that could not be read, so that no rule can be held against it.
-   pure logical function is_faulty(self, group, name)
+   pure logical function is_faulty(self, key)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
 
-      is_faulty = self%entries(find_key(group, name))%faulty
+      is_faulty = self%entries(find_key(key))%faulty
    end function is_faulty
 
    !> Value of a real key, 0 where it has none.
-   pure real(dp) function number_of(self, group, name)
+   pure real(dp) function number_of(self, key)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
 
-      number_of = self%entries(find_key(group, name))%number
+      number_of = self%entries(find_key(key))%number
    end function number_of
 
    !> Value of an integer key.
-   pure integer function count_of(self, group, name)
+   pure integer function count_of(self, key)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
 
-      count_of = self%entries(find_key(group, name))%count
+      count_of = self%entries(find_key(key))%count
    end function count_of
 
    !> Value of a logical key.
-   pure logical function flag_of(self, group, name)
+   pure logical function flag_of(self, key)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
 
-      flag_of = self%entries(find_key(group, name))%flag
+      flag_of = self%entries(find_key(key))%flag
    end function flag_of
 
    !> Value of a text key, empty where it has none.
-   pure function word_of(self, group, name) result(word)
+   pure function word_of(self, key) result(word)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       character(:), allocatable :: word
 
-      word = self%entries(find_key(group, name))%word
+      word = self%entries(find_key(key))%word
    end function word_of
 
    !> Blank-separated words of a list key.
-   pure function words_of(self, group, name) result(words)
+   pure function words_of(self, key) result(words)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       character(:), allocatable :: words
 
-      words = self%entries(find_key(group, name))%words
+      words = self%entries(find_key(key))%words
    end function words_of
 
    !> Numbers of a list key.
-   pure function numbers_of(self, group, name) result(numbers)
+   pure function numbers_of(self, key) result(numbers)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       real(dp), allocatable :: numbers(:)
 
-      numbers = self%entries(find_key(group, name))%numbers
+      numbers = self%entries(find_key(key))%numbers
    end function numbers_of
 
    !> Columns of a table key.
-   pure function columns_of(self, group, name) result(columns)
+   pure function columns_of(self, key) result(columns)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       type(numbers_t), allocatable :: columns(:)
 
-      allocate (columns, source=self%entries(find_key(group, name))%columns)
+      allocate (columns, source=self%entries(find_key(key))%columns)
    end function columns_of
 
    !> Position of the word of a key among its choices in the table, from 1.
-   pure integer function choice_of(self, group, name)
+   pure integer function choice_of(self, key)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       integer :: position
 
-      position = find_key(group, name)
+      position = find_key(key)
       choice_of = word_position(trim(keys(position)%choices), self%entries(position)%word)
    end function choice_of
 
    !> Positions of the words of a list key among its choices in the table, from 1.
-   pure function choices_of(self, group, name) result(choices)
+   pure function choices_of(self, key) result(choices)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       integer, allocatable :: choices(:)
       type(word_t), allocatable :: words(:)
       integer :: position, i
 
-      position = find_key(group, name)
+      position = find_key(key)
       allocate (words, source=split_words(self%entries(position)%words))
       choices = [(word_position(trim(keys(position)%choices), words(i)%text), i=1, size(words))]
    end function choices_of
 
    !> Path of the file that a key names; empty, with a fault, if it lies elsewhere than in the folder of the input: an input and its
    !> data move together.
-   function file_path(self, group, name) result(path)
+   function file_path(self, key) result(path)
       class(scene_input_t), intent(inout) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       character(:), allocatable :: path
 
-      path = self%path_beside(self%word(group, name))
+      path = self%path_beside(self%word(key))
       if (lies_inside(path, self%folder())) return
-      call self%refuse(group, name, 'the file lies outside the folder of this input; bring it there')
+      call self%refuse(key, 'the file lies outside the folder of this input; bring it there')
       path = ''
    end function file_path
 
@@ -324,15 +324,17 @@ contains
    end function folder
 
    !> Add a fault at the place of a key: where it was set, or without a line if it was not.
-   subroutine refuse(self, group, name, message)
+   subroutine refuse(self, key, message)
       class(scene_input_t), intent(inout) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       !> What is wrong and what is allowed
       character(*), intent(in) :: message
+      integer :: position
 
-      associate (entry => self%entries(find_key(group, name)))
-         call self%faults%add(entry%file, entry%line, group, name, message)
+      position = find_key(key)
+      associate (entry => self%entries(position), known => keys(position))
+         call self%faults%add(entry%file, entry%line, trim(known%group), trim(known%name), message)
       end associate
    end subroutine refuse
 

@@ -150,7 +150,7 @@ contains
       type(scene_input_t), intent(in) :: input
       type(scene_t), intent(inout) :: scene
 
-      scene%task = input%choice('scene', 'task')
+      scene%task = input%choice('scene.task')
       call input%put_numbers(scene)
       call input%put_laws(scene)
       call read_choices(input, scene)
@@ -174,8 +174,8 @@ contains
       type(word_t), allocatable :: lines(:)
 
       allocate (lines(0))
-      if (.not. input%has_group('gear') .or. input%word('film', 'model') /= 'published') return
-      lines = [word_t('warning: '//place_of(input%entries(find_key('film', 'model')))//": the published films are those of the "// &
+      if (.not. input%has_group('gear') .or. input%word('film.model') /= 'published') return
+      lines = [word_t('warning: '//place_of(input%entries(find_key('film.model')))//": the published films are those of the "// &
                       "paper's scenes, and off by factors for gear pairs; leave &film model out, or take 'reynolds'")]
    end function published_film_of_gear
 
@@ -198,9 +198,9 @@ contains
       integer :: dot
 
       name = ''
-      if (input%is_faulty('scene', 'name')) return
-      if (input%is_given('scene', 'name')) then
-         stem = input%word('scene', 'name')
+      if (input%is_faulty('scene.name')) return
+      if (input%is_given('scene.name')) then
+         stem = input%word('scene.name')
       else if (path == '-') then
          stem = 'standard-input'
       else
@@ -221,7 +221,7 @@ contains
       character(*), parameter :: legal = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-'
 
       if (len(name) > name_limit .or. verify(name, legal) > 0 .or. name == '.' .or. name == '..') &
-         call input%refuse(group, 'name', quoted(name(:min(len(name), 80)))//' is not allowed; allowed: 1 to '// &
+         call input%refuse(group//'.name', quoted(name(:min(len(name), 80)))//' is not allowed; allowed: 1 to '// &
                            integer_text(name_limit)//' letters, digits, . _ -')
    end subroutine check_name
 
@@ -235,11 +235,11 @@ contains
       integer :: i
       logical :: is_one_of_several
 
-      if (input%is_faulty('gear', 'name')) return
+      if (input%is_faulty('gear.name')) return
       is_one_of_several = input%line_of_pair > 0
-      name = input%word('gear', 'name')
+      name = input%word('gear.name')
       if (len(name) == 0) then
-         if (is_one_of_several) call input%refuse('gear', 'name', 'several &gear stand here; each needs a name')
+         if (is_one_of_several) call input%refuse('gear.name', 'several &gear stand here; each needs a name')
          return
       end if
       associate (scene => scenes(size(scenes)))
@@ -249,13 +249,13 @@ contains
          do i = 1, size(scenes) - 1
             ! There are file systems that know no case.
             if (lower(trim(scenes(i)%gear%name)) /= lower(name)) cycle
-            call input%refuse('gear', 'name', quoted(name)//' is also the name of an earlier &gear')
+            call input%refuse('gear.name', quoted(name)//' is also the name of an earlier &gear')
             exit
          end do
-         if (len_trim(scene%name) + 1 + len(name) > name_limit) call input%refuse('gear', 'name', 'the name of this pair, '// &
+         if (len_trim(scene%name) + 1 + len(name) > name_limit) call input%refuse('gear.name', 'the name of this pair, '// &
             trim(scene%name)//'.'//name//', is longer than '//integer_text(name_limit)//' letters')
          scene%gearbox = scene%name
-         if (input%word('scene', 'task') /= 'campaign' .and. input%word('scene', 'task') /= 'threshold') &
+         if (input%word('scene.task') /= 'campaign' .and. input%word('scene.task') /= 'threshold') &
             scene%name = trim(scene%name)//'.'//name
       end associate
    end subroutine read_pair_name
@@ -266,44 +266,44 @@ contains
       type(scene_t), intent(inout) :: scene
 
       associate (film => scene%film, solver => scene%solver, excitation => scene%excitation, spectrum => scene%spectrum)
-         if (input%is_given('load', 'force_orders')) then
-            excitation%force_orders = nint(input%numbers('load', 'force_orders'))
-            excitation%force_amplitudes = input%numbers('load', 'force_amplitudes')
+         if (input%is_given('load.force_orders')) then
+            excitation%force_orders = nint(input%numbers('load.force_orders'))
+            excitation%force_amplitudes = input%numbers('load.force_amplitudes')
             excitation%force_phases = 0.0_dp*excitation%force_amplitudes
-            if (input%is_given('load', 'force_phases')) excitation%force_phases = input%numbers('load', 'force_phases')
+            if (input%is_given('load.force_phases')) excitation%force_phases = input%numbers('load.force_phases')
             spectrum%forced = forced_orders(excitation%force_orders, excitation%force_amplitudes)
          end if
          if (allocated(scene%shaft%table)) then
             scene%shaft%orders = scene%shaft%table%orders
          else if (input%has_group('shaft')) then
-            scene%shaft%orders = input%numbers('shaft', 'orders')
-            if (input%is_given('shaft', 'accelerations')) scene%shaft%accelerations = input%numbers('shaft', 'accelerations')
-            if (input%is_given('shaft', 'speed_amplitudes')) &
-               scene%shaft%speed_amplitudes = input%numbers('shaft', 'speed_amplitudes')
+            scene%shaft%orders = input%numbers('shaft.orders')
+            if (input%is_given('shaft.accelerations')) scene%shaft%accelerations = input%numbers('shaft.accelerations')
+            if (input%is_given('shaft.speed_amplitudes')) &
+               scene%shaft%speed_amplitudes = input%numbers('shaft.speed_amplitudes')
             scene%shaft%phases = 0.0_dp*scene%shaft%orders
-            if (input%is_given('shaft', 'phases')) scene%shaft%phases = input%numbers('shaft', 'phases')
+            if (input%is_given('shaft.phases')) scene%shaft%phases = input%numbers('shaft.phases')
          end if
-         scene%oil%base = input%choice('oil', 'base')
-         film%nodes = input%count('film', 'nodes')
-         film%rupture = input%choice('film', 'rupture')
-         film%rupture_solver = input%choice('film', 'rupture_solver')
-         solver%method = input%choice('solver', 'method')
-         solver%iteration = input%choice('solver', 'iteration')
-         solver%predictor = input%choice('solver', 'predictor')
-         solver%tolerance = input%number('solver', 'tolerance')
-         solver%iteration_limit = input%count('solver', 'iteration_limit')
-         solver%steps_per_period = input%count('solver', 'steps_per_period')
-         solver%kept_per_period = input%count('solver', 'samples_per_period')
-         solver%until = input%choice('solver', 'until')
+         scene%oil%base = input%choice('oil.base')
+         film%nodes = input%count('film.nodes')
+         film%rupture = input%choice('film.rupture')
+         film%rupture_solver = input%choice('film.rupture_solver')
+         solver%method = input%choice('solver.method')
+         solver%iteration = input%choice('solver.iteration')
+         solver%predictor = input%choice('solver.predictor')
+         solver%tolerance = input%number('solver.tolerance')
+         solver%iteration_limit = input%count('solver.iteration_limit')
+         solver%steps_per_period = input%count('solver.steps_per_period')
+         solver%kept_per_period = input%count('solver.samples_per_period')
+         solver%until = input%choice('solver.until')
          solver%starts = 1
-         if (in_use(input, find_key('solver', 'starts'))) then
+         if (in_use(input, find_key('solver.starts'))) then
             solver%starts = merge(starts_of_motion, starts_of_campaign, scene%task == task_motion)
-            if (input%is_given('solver', 'starts')) solver%starts = input%count('solver', 'starts')
+            if (input%is_given('solver.starts')) solver%starts = input%count('solver.starts')
             if (film%model == model_resolved) solver%starts = 1
          end if
-         solver%time_limit = input%number('solver', 'time_limit')
-         spectrum%verify = input%flag('spectrum', 'verify')
-         spectrum%verification_tolerance = input%number('spectrum', 'verification_tolerance')
+         solver%time_limit = input%number('solver.time_limit')
+         spectrum%verify = input%flag('spectrum.verify')
+         spectrum%verification_tolerance = input%number('spectrum.verification_tolerance')
       end associate
    end subroutine read_choices
 
@@ -313,18 +313,18 @@ contains
       type(output_t) :: output
       integer :: i
 
-      output%directory = input%word('output', 'directory')
-      output%series = input%flag('output', 'series')
-      output%overwrite = input%flag('output', 'overwrite')
-      output%profiles = in_use(input, find_key('output', 'profiles')) .and. input%flag('output', 'profiles')
-      if (input%is_given('output', 'profile_phases')) output%profile_phases = input%numbers('output', 'profile_phases')
-      if (input%is_given('output', 'profile_count')) then
-         associate (n => input%count('output', 'profile_count'))
+      output%directory = input%word('output.directory')
+      output%series = input%flag('output.series')
+      output%overwrite = input%flag('output.overwrite')
+      output%profiles = in_use(input, find_key('output.profiles')) .and. input%flag('output.profiles')
+      if (input%is_given('output.profile_phases')) output%profile_phases = input%numbers('output.profile_phases')
+      if (input%is_given('output.profile_count')) then
+         associate (n => input%count('output.profile_count'))
             output%profile_phases = [(real(i, dp)/real(n, dp), i=1, n)]
          end associate
       end if
-      allocate (output%columns, source=input%choices('output', 'columns'))
-      output%stride = input%count('output', 'stride')
+      allocate (output%columns, source=input%choices('output.columns'))
+      output%stride = input%count('output.stride')
    end function read_output
 
    !> All keys that have a value and are in use, as namelist text. Where the files go is no property
@@ -366,10 +366,10 @@ contains
          if (keys(i)%group == 'output') is_told = is_told .and. keys(i)%name /= 'directory' .and. keys(i)%name /= 'overwrite'
          ! The key matters to elastic flanks.
          if (keys(i)%name == 'flattening_included') &
-            is_told = is_told .and. (input%is_given('contact', 'stiffness') .or. input%word('film', 'law') == 'elastohydrodynamic' &
-                                     .or. input%number('gear', 'tooth_stiffness') > 0.0_dp)
+            is_told = is_told .and. (input%is_given('contact.stiffness') .or. input%word('film.law') == 'elastohydrodynamic' &
+                                     .or. input%number('gear.tooth_stiffness') > 0.0_dp)
          ! In a film task the absent model means more than its default.
-         if (keys(i)%name == 'model') is_told = is_told .and. (input%entries(i)%given .or. input%word('scene', 'task') /= 'film')
+         if (keys(i)%name == 'model') is_told = is_told .and. (input%entries(i)%given .or. input%word('scene.task') /= 'film')
       end function is_told
 
    end function resolved_text

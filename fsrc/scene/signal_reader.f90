@@ -64,20 +64,20 @@ contains
       allocate (shape_keys, source=motion_keys)
       if (group == 'load') shape_keys = force_keys
       keys = signal_keys(:merge(4, 6, group == 'load'))
-      if (.not. input%is_given(group, 'signal')) then
+      if (.not. input%is_given(group//'.signal')) then
          do i = 2, size(keys)
-            if (input%is_given(group, trim(keys(i)))) &
-               call input%refuse(group, trim(keys(i)), 'this key is used only with signal; leave it out')
-            input%entries(find_key(group, trim(keys(i))))%present = .false.
+            if (input%is_given(group//'.'//keys(i))) &
+               call input%refuse(group//'.'//keys(i), 'this key is used only with signal; leave it out')
+            input%entries(find_key(group//'.'//keys(i)))%present = .false.
          end do
          return
       end if
       before = input%faults%count()
       do i = 1, size(shape_keys)
-         if (input%is_given(group, trim(shape_keys(i)))) call input%refuse(group, trim(shape_keys(i)), 'the signal gives '// &
+         if (input%is_given(group//'.'//shape_keys(i))) call input%refuse(group//'.'//shape_keys(i), 'the signal gives '// &
             trim(merge('the force ', 'the motion', group == 'load'))//'; leave this key or the signal out')
       end do
-      if (.not. in_use(input, find_key(group, 'signal'))) return
+      if (.not. in_use(input, find_key(group//'.signal'))) return
       call read_signal(input, group, shape_keys(:2), keys, signal)
       ! A count of cycles that is not known is so by a fault of the input, which stands in its place.
       if (input%faults%count() > before .or. signal%cycles == 0) return
@@ -96,15 +96,15 @@ contains
       call put(input, group, signal%amplitude_key, signal%amplitudes(:last))
       call put(input, group, shape_keys(3), signal%phases(:last))
       if (group == 'load') then
-         associate (entry => input%entries(find_key('load', 'force_mean')))
+         associate (entry => input%entries(find_key('load.force_mean')))
             entry%given = .true.
             entry%present = .true.
             entry%number = signal%mean
          end associate
       end if
       do i = 1, size(keys)
-         input%entries(find_key(group, trim(keys(i))))%given = .false.
-         input%entries(find_key(group, trim(keys(i))))%present = .false.
+         input%entries(find_key(group//'.'//keys(i)))%given = .false.
+         input%entries(find_key(group//'.'//keys(i)))%present = .false.
       end do
    end subroutine take_signal
 
@@ -120,14 +120,14 @@ contains
       integer :: i, before
 
       ! Until the signal is read no rule is held against what it gives.
-      if (group == 'shaft') input%entries([(find_key(group, trim(shape_keys(i))), i=1, 2)])%given = .true.
-      if (group == 'shaft') input%entries([(find_key(group, trim(shape_keys(i))), i=1, 2)])%faulty = .true.
-      if (any([(input%is_faulty(group, trim(keys(i))), i=1, size(keys))])) return
+      if (group == 'shaft') input%entries([(find_key(group//'.'//shape_keys(i)), i=1, 2)])%given = .true.
+      if (group == 'shaft') input%entries([(find_key(group//'.'//shape_keys(i)), i=1, 2)])%faulty = .true.
+      if (any([(input%is_faulty(group//'.'//keys(i)), i=1, size(keys))])) return
       signal%group = group
-      signal%path = input%file_path(group, 'signal')
+      signal%path = input%file_path(group//'.signal')
       if (len(signal%path) == 0) return
       before = input%faults%count()
-      call read_csv_signal(signal%path, input%word(group, 'signal_column'), signal%recording, input%faults)
+      call read_csv_signal(signal%path, input%word(group//'.signal_column'), signal%recording, input%faults)
       if (input%faults%count() == before) &
          call count_cycles(input, group, signal%path, signal%recording, signal%cycles, signal%counted_by)
    end subroutine read_signal
@@ -184,14 +184,14 @@ contains
       signal%unit = ' N'
       signal%fate = 'is added to steady_force'
       if (signal%group == 'load') return
-      signal%orders = signal%orders/real(input%count('shaft', 'cycle_revolutions'), dp)
+      signal%orders = signal%orders/real(input%count('shaft.cycle_revolutions'), dp)
       signal%amplitude_key = 'accelerations'
       signal%unit = ' rad/s2'
       signal%fate = 'is left out'
-      if (input%choice('shaft', 'signal_kind') == kind_acceleration) return
-      input%entries(find_key('shaft', 'accelerations'))%given = .false.
-      input%entries(find_key('shaft', 'accelerations'))%faulty = .false.
-      in_rpm = input%choice('shaft', 'signal_kind') == kind_speed_rpm
+      if (input%choice('shaft.signal_kind') == kind_acceleration) return
+      input%entries(find_key('shaft.accelerations'))%given = .false.
+      input%entries(find_key('shaft.accelerations'))%faulty = .false.
+      in_rpm = input%choice('shaft.signal_kind') == kind_speed_rpm
       signal%amplitude_key = 'speed_amplitudes'
       signal%amplitudes = signal%amplitudes*merge(two_pi/60.0_dp, 1.0_dp, in_rpm)
       ! Of the order at half the samples the signs alone are known, not its phase.
@@ -207,8 +207,8 @@ contains
       type(signal_t), intent(in) :: signal
       real(dp), parameter :: most_dropped = 1.0e-6_dp
 
-      if (input%is_given(signal%group, 'signal_orders')) then
-         kept_orders = min(input%count(signal%group, 'signal_orders'), size(signal%amplitudes))
+      if (input%is_given(signal%group//'.signal_orders')) then
+         kept_orders = min(input%count(signal%group//'.signal_orders'), size(signal%amplitudes))
          return
       end if
       do kept_orders = 1, min(size(signal%amplitudes), highest_order) - 1
@@ -260,7 +260,7 @@ contains
       character(*), intent(in) :: name
       real(dp), intent(in) :: numbers(:)
 
-      associate (entry => input%entries(find_key(group, trim(name))), signal => input%entries(find_key(group, 'signal')))
+      associate (entry => input%entries(find_key(group//'.'//name)), signal => input%entries(find_key(group//'.signal')))
          entry%given = .true.
          entry%present = .true.
          entry%faulty = .false.

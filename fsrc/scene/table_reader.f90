@@ -35,7 +35,7 @@ contains
       logical, allocatable :: is_known(:, :)
 
       before = input%faults%count()
-      call open_table(input, 'gear', 'drag_table', drag_example, path, csv)
+      call open_table(input, 'gear.drag_table', drag_example, path, csv)
       if (len(path) == 0 .or. input%faults%count() > before) return
       do i = 1, size(drag_columns)
          places(i) = place_of(csv, trim(drag_columns(i)))
@@ -48,9 +48,9 @@ contains
                                ', or stands there twice')
       end do
       if (input%faults%count() > before) return
-      call check_column(path, csv, places(1), 'shaft', 'speed_rpm', input%faults)
-      call check_column(path, csv, places(2), 'oil', 'temperature_celsius', input%faults)
-      call check_column(path, csv, places(3), 'gear', 'drag_torque', input%faults)
+      call check_column(path, csv, places(1), 'shaft.speed_rpm', input%faults)
+      call check_column(path, csv, places(2), 'oil.temperature_celsius', input%faults)
+      call check_column(path, csv, places(3), 'gear.drag_torque', input%faults)
       if (size(csv%lines) < 2) call input%faults%add(path, csv%lines(1), '', '', 'a table needs two rows at least')
       if (input%faults%count() > before) return
       allocate (gear%drag_table)
@@ -91,14 +91,14 @@ contains
       integer :: before, speed, i, row
 
       before = input%faults%count()
-      call open_table(input, 'shaft', 'table', excitation_example, path, csv)
+      call open_table(input, 'shaft.table', excitation_example, path, csv)
       if (len(path) == 0 .or. input%faults%count() > before) return
       call sort_columns(path, csv, speed, orders, accelerations, phases, input%faults)
       if (input%faults%count() > before) return
-      call check_column(path, csv, speed, 'shaft', 'speed_rpm', input%faults)
+      call check_column(path, csv, speed, 'shaft.speed_rpm', input%faults)
       do i = 1, size(orders)
-         call check_column(path, csv, accelerations(i), 'shaft', 'accelerations', input%faults)
-         if (phases(i) > 0) call check_column(path, csv, phases(i), 'shaft', 'phases', input%faults)
+         call check_column(path, csv, accelerations(i), 'shaft.accelerations', input%faults)
+         if (phases(i) > 0) call check_column(path, csv, phases(i), 'shaft.phases', input%faults)
       end do
       do row = 2, size(csv%lines)
          if (csv%values(row, speed) > csv%values(row - 1, speed)) cycle
@@ -196,36 +196,36 @@ contains
       is_unknown = index(name, opening) /= 1
       if (is_unknown) return
       call read_strict_real(name(len(opening) + 1:), order, sound)
-      is_unknown = .not. (sound .and. is_computable(keys(find_key('shaft', 'orders')), order))
+      is_unknown = .not. (sound .and. is_computable(keys(find_key('shaft.orders')), order))
    end subroutine read_order
 
    !> Path and content of a table, if the input has one; an empty path if it has not, or if there is a fault.
-   subroutine open_table(input, group, name, example, path, csv)
+   subroutine open_table(input, key, example, path, csv)
       type(scene_input_t), intent(inout) :: input
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       character(*), intent(in) :: example
       character(:), allocatable, intent(out) :: path
       type(csv_table_t), intent(out) :: csv
 
       path = ''
-      if (.not. input%is_given(group, name) .or. input%is_faulty(group, name)) return
-      if (.not. in_use(input, find_key(group, name))) return
-      path = input%file_path(group, name)
+      if (.not. input%is_given(key) .or. input%is_faulty(key)) return
+      if (.not. in_use(input, find_key(key))) return
+      path = input%file_path(key)
       if (len(path) > 0) call read_csv_table(path, example, csv, input%faults)
    end subroutine open_table
 
    !> All values of a column are allowed for the key whose unit they have.
-   subroutine check_column(path, csv, column, group, name, faults)
+   subroutine check_column(path, csv, column, name, faults)
       character(*), intent(in) :: path
       type(csv_table_t), intent(in) :: csv
       integer, intent(in) :: column
-      character(*), intent(in) :: group
+      !> As group.name
       character(*), intent(in) :: name
       type(fault_list_t), intent(inout) :: faults
       integer :: row
 
-      associate (key => keys(find_key(group, name)))
+      associate (key => keys(find_key(name)))
          do row = 1, size(csv%lines)
             associate (value => csv%values(row, column))
                if (.not. in_range(key, value)) then

@@ -306,7 +306,7 @@ contains
       call judge(scene, recorder, record, ending, judged, error)
       call checks%check(judged%judged .and. quantity_value(quantity_verified, judged) > 0.5_dp, 'scene: verified')
       allocate (values, source=reshape(scene%excitation%force_amplitude*[1.0_dp, 0.5_dp], [1, 2]))
-      call plan_table([find_key('load', 'force_amplitude')], values, plan)
+      call plan_table([find_key('load.force_amplitude')], values, plan)
       allocate (rows(3 + size(told), 2), space)
       call solve_scenes(scene, plan, 1_int64, space, rows, error)
       do i = 1, size(told)
