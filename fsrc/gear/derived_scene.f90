@@ -2,7 +2,7 @@
 !> number of these groups, an input, a sweep or a campaign, derives the scene from them behind it.
 module derived_scene
    use constants, only: pi, two_pi
-   use gear_contact, only: find_contact, gear_contact_t, gear_pair_t
+   use gear_contact, only: find_contact, gear_contact_t
    use input_key, only: is_computable
    use key_table, only: find_key, keys
    use kinds, only: dp
@@ -14,7 +14,7 @@ module derived_scene
    implicit none(type, external)
    private
 
-   public :: derive, derived_rules, base_order, pair_of, accelerations_of
+   public :: derive, derived_rules, base_order, accelerations_of
 
 contains
 
@@ -34,7 +34,7 @@ contains
       end if
       if (.not. scene%gear%given) return
       scene%drag = drag_of_gear(scene%gear, scene%shaft%speed_rpm, scene%oil)
-      call find_contact(pair_of(scene), scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
+      call find_contact(scene%gear, scene%drag%torque, scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
       scene%contact%radius = contact%radius
       scene%contact%length = contact%length
       scene%contact%backlash = scene%gear%backlash
@@ -87,17 +87,6 @@ contains
       viscosity_at = oil_viscosity(scene%oil%viscosity_40_cst, scene%oil%viscosity_100_cst, scene%oil%density_15, temperature)
    end function viscosity_at
 
-   !> The pair of gears as its geometry takes it.
-   pure type(gear_pair_t) function pair_of(scene)
-      type(scene_t), intent(in) :: scene
-
-      associate (gear => scene%gear)
-         pair_of = gear_pair_t(gear%teeth_1, gear%teeth_2, gear%normal_module, gear%pressure_angle_deg, gear%helix_angle_deg, &
-                               gear%face_width, gear%centre_distance, gear%contact_position, gear%contact_lines, &
-                               gear%loose_inertia, scene%drag%torque, gear%tip_diameter_1, gear%tip_diameter_2)
-      end associate
-   end function pair_of
-
    !> Greatest common divisor of orders, which have halves among them in a four-stroke engine; 0 if they have none above a
    !> hundred-thousandth of the largest. Times the speed of the shaft [1/s] it is the frequency that the motion repeats with,
    !> and the orders over it are whole numbers.
@@ -140,7 +129,7 @@ contains
       end if
       if (scene%oil%given .and. .not. scene%gear%given) broken = [broken, broken_elastic_rules(scene)]
       if (.not. scene%gear%given) return
-      call find_contact(pair_of(scene), scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
+      call find_contact(scene%gear, scene%drag%torque, scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
       if (len(wrong) > 0) then
          call add(broken, 'gear.'//wrong, message)
          return
