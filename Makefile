@@ -57,8 +57,8 @@ WIDE_REGISTERS := $(shell $(FC) $(ARCHITECTURE) -Q --help=target 2>/dev/null | a
   $$1 == "-mavx512f" && $$2 == "[enabled]" { wide = 1 } \
   $$1 == "-mprefer-vector-width=" && $$2 ~ /^(128|256)$$/ { narrow = 1 } \
   END { print wide && !narrow ? ".true." : ".false." }')
-# The folders of fsrc, in the order of the table in fsrc/README.md.
-MODULES := $(filter-out bindings,$(shell sed -n 's/^| `\([a-z]*\)\/` |.*/\1/p' fsrc/README.md))
+# The folders of fsrc that the program is made of; each uses only those before it.
+MODULES := foundation scene gear film contact problem motion orbit spectrum verdict files judgement run campaign
 # Folders within folders that this build takes.
 PARTS := film/coefficients campaign/$(if $(MPI),mpi,serial)
 FOLDERS := $(foreach folder,$(MODULES),$(folder) $(filter $(folder)/%,$(PARTS)))
@@ -327,75 +327,8 @@ compilers: $(BUILD)/rattle $(PYTHON_ENV)/installed
 
 # --- pages and pictures that are kept in the repository ------------------------------------------------
 
-PICTURES := input/pictures
-PICTURE_RUNS := $(BUILD)/picture_runs
-LOOSE_IDLE := --set solver.iteration=successive --set solver.steps_per_period=64
-pictures: $(BUILD)/rattle $(BUILD)/kernels/built
-	@mkdir -p $(PICTURES)
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/idle.nml input/creep.nml input/creep_false_harmonic.nml
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set solver.tolerance=1e-12 --set scene.name=no_line \
-	  input/creep_false_harmonic.nml
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) $(LOOSE_IDLE) --set solver.tolerance=1e-7 \
-	  --set scene.name=idle_loose input/idle.nml
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) $(LOOSE_IDLE) --set solver.tolerance=1e-12 \
-	  --set scene.name=idle_tight input/idle.nml
-	@$(PYTHON) scripts/plot.py motion --overwrite --overlay --figures 8,9 --output $(PICTURE_RUNS) \
-	  $(PICTURE_RUNS)/idle.rattle $(PICTURE_RUNS)/creep.rattle
-	@$(PYTHON) scripts/plot.py tolerance --overwrite --output $(PICTURE_RUNS) \
-	  --false-harmonic $(PICTURE_RUNS)/creep_false_harmonic.rattle $(PICTURE_RUNS)/no_line.rattle \
-	  --false-reversals $(PICTURE_RUNS)/idle_loose.rattle $(PICTURE_RUNS)/idle_tight.rattle
-	@cp $(PICTURE_RUNS)/figure_08_09_overlay.png $(PICTURES)/idle_and_creep.png
-	@cp $(PICTURE_RUNS)/tolerance.png $(PICTURES)/tolerance.png
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=map_idle input/map.nml
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=map_creep --set film.law=piezo-viscous \
-	  input/map.nml
-	@for map in map_idle map_creep; do \
-	  $(PYTHON) scripts/plot.py campaign --overwrite $(PICTURE_RUNS)/$$map.rattle --output $(PICTURE_RUNS) && \
-	  cp $(PICTURE_RUNS)/$${map}_map_rattle_class.png $(PICTURES)/$$map.png; done
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/gearbox_map.nml
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/gearbox_threshold.nml
-	@$(PYTHON) scripts/plot.py campaign --overwrite --together --output $(PICTURE_RUNS) \
-	  --thresholds $(PICTURE_RUNS)/gearbox_threshold.rattle $(PICTURE_RUNS)/gearbox_map.rattle
-	@cp $(PICTURE_RUNS)/gearbox_map_pairs.png $(PICTURES)/gearbox.png
-	@$(PYTHON) scripts/plot.py threshold --overwrite --output $(PICTURE_RUNS) $(PICTURE_RUNS)/gearbox_threshold.rattle
-	@cp $(PICTURE_RUNS)/threshold_gearbox_threshold.png $(PICTURES)/gearbox_threshold.png
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/sweep.nml
-	@$(PYTHON) scripts/plot.py sweep --overwrite $(PICTURE_RUNS)/sweep.rattle --output $(PICTURE_RUNS)
-	@cp $(PICTURE_RUNS)/sweep_sweep.png $(PICTURES)/sweep.png
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=idle_teeth input/stiff_or_not.nml
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=creep_teeth --set film.law=piezo-viscous \
-	  input/stiff_or_not.nml
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=idle_teeth_exact --set film.model=reynolds \
-	  input/stiff_or_not.nml
-	@$(PYTHON) scripts/plot.py sweep --overwrite --panels acceleration,harmonics --mark '1.4e8=steel tooth' --output $(PICTURE_RUNS) \
-	  $(addprefix $(PICTURE_RUNS)/,idle_teeth.rattle creep_teeth.rattle idle_teeth_exact.rattle)
-	@cp $(PICTURE_RUNS)/sweep_overlay.png $(PICTURES)/stiff_or_not.png
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set film.model=resolved --set film.nodes=64 \
-	   --set output.profiles=true input/drive_rattle.nml
-	@$(PYTHON) scripts/plot.py motion --overwrite --figures profiles --width 130 --output $(PICTURE_RUNS) \
-	   $(PICTURE_RUNS)/drive_rattle.rattle
-	@cp $(PICTURE_RUNS)/profiles_drive_rattle.png $(PICTURES)/profiles.png
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/loose_gear.nml
-	@$(PYTHON) scripts/plot.py motion --overwrite --figures flanks --output $(PICTURE_RUNS) $(PICTURE_RUNS)/loose_gear.rattle
-	@$(PYTHON) scripts/plot.py motion --overwrite --animate --output $(PICTURE_RUNS) $(PICTURE_RUNS)/loose_gear.rattle
-	@cp $(PICTURE_RUNS)/flanks_loose_gear.png $(PICTURES)/loose_gear.png
-	@cp $(PICTURE_RUNS)/motion_loose_gear.gif $(PICTURES)/loose_gear.gif
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/gearbox_orders.nml
-	@$(PYTHON) scripts/plot.py orders --overwrite --output $(PICTURE_RUNS) $(PICTURE_RUNS)/gearbox_orders.rattle
-	@cp $(PICTURE_RUNS)/orders_gearbox_orders.4th.png $(PICTURES)/orders.png
-	@cp input/gearbox_tolerances.nml $(PICTURE_RUNS)
-	@$(PYTHON) scripts/sensitivity.py design --overwrite $(PICTURE_RUNS)/gearbox_tolerances.nml
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) $(PICTURE_RUNS)/gearbox_tolerances_design.nml
-	@$(PYTHON) scripts/sensitivity.py --overwrite --output $(PICTURE_RUNS) $(PICTURE_RUNS)/gearbox_tolerances_design.rattle \
-	  > $(PICTURE_RUNS)/sensitivity.txt
-	@cp $(PICTURE_RUNS)/sensitivity_gearbox_tolerances_design.png $(PICTURES)/sensitivity.png
-	@$(MAKE) --no-print-directory $(BUILD)/newmark_outcomes
-	@$(BUILD)/newmark_outcomes input/idle.nml input/creep.nml input/creep_false_harmonic.nml > $(PICTURE_RUNS)/newmark_outcomes.csv
-	@$(PYTHON) tests/stress/newmark_outcome_map.py $(PICTURE_RUNS)/newmark_outcomes.csv $(PICTURES)/newmark_outcomes.png
-	@$(PYTHON) scripts/plot.py film-fit --overwrite --output $(PICTURE_RUNS) > $(PICTURE_RUNS)/film_fit.txt
-	@cp $(PICTURE_RUNS)/film_fit.png $(PICTURES)/film_fit.png
-	@$(PYTHON) scripts/report.py --overwrite --output $(PICTURE_RUNS)/gearbox_map.html $(PICTURE_RUNS)/gearbox_map.rattle
-	@$(PYTHON) scripts/report.py --overwrite --output $(PICTURE_RUNS)/loose_gear.html $(PICTURE_RUNS)/loose_gear.rattle
+pictures: $(BUILD)/rattle $(BUILD)/newmark_outcomes $(BUILD)/kernels/built
+	@scripts/draw_pictures.sh $(BUILD)/rattle $(PYTHON) $(BUILD)/picture_runs
 
 pages: $(BUILD)/rattle
 	@$(BUILD)/rattle --keys > $(BUILD)/tables.md

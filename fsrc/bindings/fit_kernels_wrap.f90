@@ -12,22 +12,6 @@ subroutine wrap_published_film_law(law)
           published_film_law%squeeze_factor]
 end subroutine wrap_published_film_law
 
-! h* of a law c, a, b, s of the form (32).
-subroutine wrap_law_film_ratio(law, n, speed_group, load_group, squeeze_ratio, film_ratio)
-   use, intrinsic :: iso_c_binding, only: c_double, c_int
-   use film_fit, only: law_film_ratio, thickness_law_t
-   implicit none
-   real(c_double), intent(in) :: law(4)
-   integer(c_int), intent(in) :: n
-   real(c_double), intent(in) :: speed_group(n)
-   real(c_double), intent(in) :: load_group(n)
-   real(c_double), intent(in) :: squeeze_ratio(n)
-   real(c_double), intent(out) :: film_ratio(n)
-
-   film_ratio = law_film_ratio( &
-      thickness_law_t(law(1), law(2), law(3), law(4)), speed_group, load_group, squeeze_ratio)
-end subroutine wrap_law_film_ratio
-
 ! Error of a law c, a, b, s on given points: rms, mean and largest residual of ln h*, R squared.
 subroutine wrap_judge_film_law(law, n, speed_group, load_group, squeeze_ratio, film_ratio, error)
    use, intrinsic :: iso_c_binding, only: c_double, c_int

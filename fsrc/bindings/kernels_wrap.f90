@@ -1,5 +1,5 @@
-! Thin layer between the kernels of spectrum and class and f2py: plain arguments, explicit sizes, no derived
-! types. The Python package checks shapes and types before it calls; nothing here repeats a formula.
+! Thin layer between f2py and the kernels of spectrum and class, and the numerical Reynolds solver: plain arguments, explicit sizes,
+! no derived types. The Python package checks shapes and types before it calls; nothing here repeats a formula.
 
 ! Single-sided amplitudes, m = n/2 + 1 of them.
 subroutine wrap_amplitude_spectrum(n, samples, m, amplitudes)
@@ -54,3 +54,51 @@ subroutine wrap_classify(n, acceleration, periods, limits, idle_harmonics, orbit
    counts = [verdict%class, verdict%spectrum%harmonic_count, merge(1, 0, verdict%spectrum%moving), &
              merge(1, 0, verdict%spectrum%sampling_sufficient), verdict%spectrum%largest_forced]
 end subroutine wrap_classify
+
+! Groups of a film in SI units for the numerical Reynolds solver: u/v, squeeze group, B, alpha p_r, Roelands'
+! logarithm; then the scales of pressure [Pa] and line load [N/m].
+subroutine wrap_scale_film(si, groups, scales)
+   use, intrinsic :: iso_c_binding, only: c_double
+   use numerical_reynolds, only: scale_film
+   use numerical_reynolds_grid, only: film_problem_t
+   implicit none
+   real(c_double), intent(in) :: si(6)
+   real(c_double), intent(out) :: groups(5)
+   real(c_double), intent(out) :: scales(2)
+   type(film_problem_t) :: problem
+
+   call scale_film(si(1), si(2), si(3), si(4), si(5), si(6), problem, scales(1), scales(2))
+   groups = [problem%rolling, problem%squeeze, problem%pressure_group, problem%roelands_pressure, &
+             problem%roelands_logarithm]
+end subroutine wrap_scale_film
+
+! Numerical solution of one film on m - 1 cells; groups as above. results: load, its correction, largest q*,
+! rupture angle; counts: status, Newton steps. Without a solution the numbers are NaN.
+subroutine wrap_solve_reynolds(groups, law, extrapolate, m, angle, pressure, results, counts)
+   use, intrinsic :: iso_c_binding, only: c_double, c_int
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use numerical_reynolds, only: film_solution_t, solve_reynolds
+   use numerical_reynolds_grid, only: film_problem_t
+   use numerical_reynolds_rupture, only: reynolds_converged
+   implicit none
+   real(c_double), intent(in) :: groups(5)
+   integer(c_int), intent(in) :: law
+   integer(c_int), intent(in) :: extrapolate
+   integer(c_int), intent(in) :: m
+   real(c_double), intent(out) :: angle(m)
+   real(c_double), intent(out) :: pressure(m)
+   real(c_double), intent(out) :: results(4)
+   integer(c_int), intent(out) :: counts(2)
+   type(film_solution_t) :: solution
+
+   angle = ieee_value(1.0_c_double, ieee_quiet_nan)
+   pressure = angle
+   results = ieee_value(1.0_c_double, ieee_quiet_nan)
+   call solve_reynolds(film_problem_t(groups(1), groups(2), groups(3), law, groups(4), groups(5)), m - 1, &
+                       extrapolate /= 0, solution)
+   counts = [solution%status, solution%iterations]
+   if (allocated(solution%angle)) angle = solution%angle
+   if (solution%status /= reynolds_converged) return
+   pressure = solution%pressure
+   results = [solution%load, solution%load_correction, solution%maximum_pressure, solution%rupture_angle]
+end subroutine wrap_solve_reynolds

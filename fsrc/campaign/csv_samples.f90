@@ -68,7 +68,7 @@ contains
          call expect_memory(number_bytes*real(size(samples%positions), dp)*real(lines, dp), &
                             'this table of '//integer_text(lines)//' lines (&campaign csv)', error)
          if (allocated(error)) then
-            call faults%add_error(path, 0, '', '', error)
+            call faults%add_error(path, '', '', error)
             allocate (samples%values(0, 0))
          else
             allocate (samples%values(size(samples%positions), lines - 1_int64))

@@ -1,6 +1,6 @@
 !> What is known of a campaign before anything is solved: its plan, the share of this part, its columns, and that there is memory.
 module prepared_campaign
-   use campaign_file, only: campaign_layout_t
+   use campaign_header, only: campaign_layout_t
    use campaign_plan, only: count_invalid, plan_campaign
    use campaign_record, only: record_columns
    use errors, only: error_t, fault_list_t
@@ -92,7 +92,7 @@ contains
                          integer_text(omp_get_max_threads())//' threads (--threads) solves '// &
                          integer_text(together)//' at a time with windows of &spectrum periods and &campaign '// &
                          'samples_per_period = '//integer_text(scene%campaign%samples_per_period)//',', error)
-      if (allocated(error)) call faults%add_error(file, 0, '', '', error)
+      if (allocated(error)) call faults%add_error(file, '', '', error)
    end subroutine expect_campaign_memory
 
    !> Scenes of the whole campaign that this part solves, cut at the borders of chunks; traces of a threshold one by one.

@@ -122,7 +122,7 @@ contains
       character(*), intent(in) :: message
       type(fault_list_t), intent(inout) :: faults
 
-      call faults%add(file, scene%lines(find_key('threshold', key)), 'threshold', key, message)
+      call faults%add(file, scene%lines(find_key('threshold.'//key)), 'threshold', key, message)
    end subroutine add
 
    !> The base scene with a value of the key.

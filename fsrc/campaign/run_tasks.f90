@@ -61,7 +61,7 @@ contains
       if (faults%count() == 0 .and. size(scenes) > 1) then
          do i = 1, size(scenes)
             if (is_shared_task(scenes(i)%task)) call faults%add(scenes(i)%source, 0, 'scene', 'task', 'a '// &
-                                                      choice_word('scene', 'task', scenes(i)%task)// &
+                                                      choice_word('scene.task', scenes(i)%task)// &
                                                       ' must be the only input of a call')
          end do
       end if

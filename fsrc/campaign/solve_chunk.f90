@@ -107,7 +107,7 @@ contains
       type(scene_t), intent(in) :: base
       type(sample_plan_t), intent(in) :: plan
 
-      window_periods = real(reserved_periods(nint(largest_value(plan, find_key('spectrum', 'periods'), &
+      window_periods = real(reserved_periods(nint(largest_value(plan, find_key('spectrum.periods'), &
                                                                 real(base%spectrum%periods, dp)))), dp)
    end function window_periods
 

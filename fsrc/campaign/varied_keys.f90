@@ -1,7 +1,6 @@
 !> The keys that a campaign varies: which may be, their values put into a scene, and whether these make one.
 module varied_keys
    use derived_scene, only: derive, derived_rules
-   use former_names, only: present_key
    use input_key, only: allowed_text, in_range, integer_kind, is_computable, not_computable_text, real_kind
    use key_table, only: find_key, key_name, keys, known_group, nearest_group, nearest_key
    use kinds, only: dp
@@ -41,7 +40,7 @@ contains
          message = 'unknown group; the nearest known group is '//nearest_group(group)
          return
       end if
-      position = find_key(group, present_key(group, key))
+      position = find_key(lower(name))
       if (position == 0) then
          message = 'unknown key; '//nearest_key(group, key)
       else if (keys(position)%kind /= real_kind .and. keys(position)%kind /= integer_kind) then
@@ -55,7 +54,7 @@ contains
 
    !> Position in the key table of the key that stands for a gear pair as a whole, by its number.
    pure integer function pair_position()
-      pair_position = find_key('gear', 'name')
+      pair_position = find_key('gear.name')
    end function pair_position
 
    !> What a varied key is called in results.

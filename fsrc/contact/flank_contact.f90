@@ -6,9 +6,8 @@
 !> with and without a state are contacts of different numbers; one flank or two are one contact or two. Flanks that bend are
 !> compressed by what follows the width of the contact beside d, w(h, W) of module film_law.
 module flank_contact
-   use film_law, only: film_kernel, film_load, film_loads, film_over_gap, films_over_gaps, kept_load, kernel_of, film_t, &
-      law_words, mixed_film_loads, most_films, never_pulls, new_film, overflow_load, squeeze_velocities, squeeze_velocity, &
-      steady_film, width_compression
+   use film_law, only: film_kernel, film_load, film_loads, film_t, kept_load, kernel_of, law_words, mixed_film_loads, most_films, &
+      never_pulls, new_film, overflow_load, squeeze_velocities, squeeze_velocity, steady_film, width_compression
    use film_state, only: film_response_t, load_t, state_number_t
    use film_states, only: count_of_state, number_of_state, place_of_law, respond_of_state, rest_of_state, words_of_state
    use flank_elasticity, only: flank_compliance
@@ -50,8 +49,7 @@ module flank_contact
 
    public :: contact_of, contact_words, is_elastic, carries_positive_loads, keeps_load, is_costly, inner_count, inner_number, &
              inner_at_rest, film_under, load_of_contact, load_at_rest, loads_of_contact, mixed_loads, velocity_under, &
-             equations_of_films, compliance_at_rest, &
-             overflow_load, film_kernel, kernel_of_contact, film_over_gap, films_over_gaps, kept_load, most_films, width_compression
+             equations_of_films, compliance_at_rest, kernel_of_contact
 
 contains
 

@@ -10,9 +10,10 @@
 !> complement): its equations are as many as without the state, and the contacts know nothing of each other. Once the gear has
 !> found dh and dh', `follow_film` brings the state after.
 module inner_step
+   use film_law, only: overflow_load
    use film_state, only: film_response_t
    use film_states, only: respond_of_state
-   use flank_contact, only: flank_contact_t, overflow_load
+   use flank_contact, only: flank_contact_t
    use kinds, only: dp
    use linear_equations, only: solve_linear
    implicit none(type, external)

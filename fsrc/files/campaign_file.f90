@@ -14,7 +14,7 @@ module campaign_file
    use output_lock, only: expect_own_lock
    use random_access_file, only: lock_failed, lock_held, lock_refused, random_access_file_t
    use result_format, only: result_magic, row_count_offset, rows_unknown
-   use result_header, only: header_text, result_header_t
+   use result_header, only: header_text, int64_bytes, result_header_t
    use signals, only: must_stop
    use text, only: integer_text
    implicit none(type, external)
@@ -34,7 +34,6 @@ module campaign_file
       procedure :: create => create_campaign
       procedure :: resume => resume_campaign
       procedure :: join => join_campaign
-      procedure :: is_locked
       procedure :: chunk_count
       procedure :: chunk_bounds
       procedure :: is_done
@@ -50,8 +49,6 @@ module campaign_file
       procedure, private :: give_up
       procedure, private :: expect_at_place
    end type campaign_file_t
-
-   public :: campaign_layout_t
 
 contains
 
@@ -101,8 +98,7 @@ contains
       if (.not. allocated(error)) call self%take_lock(new_path, error)
       overtaken = .false.
       if (self%locked .and. .not. stood) overtaken = path_exists(path)
-      if (overtaken .and. .not. allocated(error)) &
-         call raise(error, exit_system, path//' is being written by another run')
+      if (overtaken .and. .not. allocated(error)) call raise(error, exit_system, path//' is being written by another run')
       if (allocated(error)) then
          if (self%file%is_open()) call delete_file(new_path)
          call self%give_up()
@@ -191,13 +187,6 @@ contains
       if (outcome == lock_failed) call raise(error, exit_system, path//' cannot be locked: '//why)
    end subroutine take_lock
 
-   !> Whether other runs are kept out; false on file systems without locks.
-   pure logical function is_locked(self)
-      class(campaign_file_t), intent(in) :: self
-
-      is_locked = self%locked
-   end function is_locked
-
    !> See that the open file belongs to a layout, and read its table of chunks.
    subroutine attach(self, layout, error)
       class(campaign_file_t), intent(inout) :: self
@@ -219,7 +208,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       logical :: complete
 
-      call self%file%read_at(self%header%checksum_place(1_int64), self%checksums, complete)
+      call self%header%read_checksums(self%file, 1_int64, self%checksums, complete)
       if (.not. complete) call raise(error, exit_system, self%path//' cannot be read')
    end subroutine refresh
 
@@ -241,9 +230,8 @@ contains
          call self%read_chunk(chunk, rows(:, :last - first + 1_int64), sound)
          if (sound) cycle
          ! A closed file that turns out to be spoilt is open again.
-         if (spoilt_chunks == 0_int64) call self%file%write_at(row_count_offset, [rows_unknown], error)
-         if (.not. allocated(error)) &
-            call self%file%write_at(self%header%checksum_place(chunk), [0_int64], error)
+         if (spoilt_chunks == 0_int64) call self%file%write_at(row_count_offset, int64_bytes(rows_unknown), error)
+         if (.not. allocated(error)) call self%file%write_at(self%header%checksum_place(chunk), int64_bytes(0_int64), error)
          if (allocated(error)) return
          self%checksums(chunk) = 0_int64
          spoilt_chunks = spoilt_chunks + 1_int64
@@ -315,7 +303,8 @@ contains
          sums(i) = checksum_of(rows(:, first - from + 1_int64:last - from + 1_int64))
       end do
       call self%file%write_at(self%header%row_place(from), rows, error)
-      if (.not. allocated(error)) call self%file%write_at(self%header%checksum_place(chunk), sums, error)
+      if (.not. allocated(error)) &
+         call self%file%write_at(self%header%checksum_place(chunk), transfer(sums, repeat(' ', 8*size(sums))), error)
       if (.not. allocated(error)) self%checksums(chunk:last_chunk) = sums
    end subroutine write_chunks
 
@@ -326,7 +315,7 @@ contains
       logical :: complete
 
       scenes_done = 0_int64
-      call self%file%read_at(self%header%checksum_place(1_int64), checksums, complete)
+      call self%header%read_checksums(self%file, 1_int64, checksums, complete)
       if (.not. complete) return
       do chunk = 1_int64, self%header%chunk_count
          if (checksums(chunk) == 0_int64) cycle
@@ -368,7 +357,7 @@ contains
       if (.not. allocated(error)) then
          finished = all(self%checksums /= 0_int64)
          ! The rows stand on the disk before their count says so.
-         if (finished) call self%file%write_at(row_count_offset, [self%scene_count], error)
+         if (finished) call self%file%write_at(row_count_offset, int64_bytes(self%scene_count), error)
          if (.not. allocated(error)) call self%file%synchronise(error)
       end if
       call self%file%close(close_error)

@@ -30,16 +30,14 @@ module random_access_file
       procedure :: stands_at
       procedure :: set_size
       procedure :: bytes => file_bytes
-      generic :: write_at => write_text_at, write_reals_at, write_longs_at
-      generic :: read_at => read_text_at, read_reals_at, read_longs_at
+      generic :: write_at => write_text_at, write_reals_at
+      generic :: read_at => read_text_at, read_reals_at
       procedure :: synchronise
       procedure :: close => close_file
       procedure, private :: write_text_at
       procedure, private :: write_reals_at
-      procedure, private :: write_longs_at
       procedure, private :: read_text_at
       procedure, private :: read_reals_at
-      procedure, private :: read_longs_at
       procedure, private :: write_all
       procedure, private :: read_all
       procedure, private :: fail
@@ -195,22 +193,6 @@ contains
       call self%write_all(offset, size(bytes, kind=int64), bytes, error)
    end subroutine write_reals_at
 
-   !> Write long integers in the byte order of the machine.
-   subroutine write_longs_at(self, offset, numbers, error)
-      class(random_access_file_t), intent(in) :: self
-      !> Bytes before them
-      integer(int64), intent(in) :: offset
-      !> Numbers in the order of the file
-      integer(int64), contiguous, target, intent(in) :: numbers(:)
-      !> Set if the disk is full, say
-      type(error_t), allocatable, intent(out) :: error
-      character(kind=c_char), pointer :: bytes(:)
-
-      if (size(numbers) == 0) return
-      call c_f_pointer(c_loc(numbers), bytes, [8_int64*size(numbers, kind=int64)])
-      call self%write_all(offset, size(bytes, kind=int64), bytes, error)
-   end subroutine write_longs_at
-
    !> Read text; `complete` tells whether the file went so far.
    subroutine read_text_at(self, offset, text, complete)
       class(random_access_file_t), intent(in) :: self
@@ -240,23 +222,6 @@ contains
       call c_f_pointer(c_loc(numbers), bytes, [8_int64*size(numbers, kind=int64)])
       call self%read_all(offset, size(bytes, kind=int64), bytes, complete)
    end subroutine read_reals_at
-
-   !> Read long integers; `complete` tells whether the file went so far.
-   subroutine read_longs_at(self, offset, numbers, complete)
-      class(random_access_file_t), intent(in) :: self
-      !> Bytes before them
-      integer(int64), intent(in) :: offset
-      !> Numbers in the order of the file
-      integer(int64), contiguous, target, intent(out) :: numbers(:)
-      !> Whether all of them were read
-      logical, intent(out) :: complete
-      character(kind=c_char), pointer :: bytes(:)
-
-      complete = .true.
-      if (size(numbers) == 0) return
-      call c_f_pointer(c_loc(numbers), bytes, [8_int64*size(numbers, kind=int64)])
-      call self%read_all(offset, size(bytes, kind=int64), bytes, complete)
-   end subroutine read_longs_at
 
    !> See that everything stands on the disk itself.
    subroutine synchronise(self, error)

@@ -53,9 +53,10 @@ module result_header
       procedure :: table_place
       procedure :: checksum_place
       procedure :: row_place
+      procedure :: read_checksums
    end type result_header_t
 
-   public :: header_text, seal_text, read_result_header, series_chunk_rows
+   public :: header_text, seal_text, read_result_header, series_chunk_rows, int64_bytes
 
 contains
 
@@ -102,6 +103,22 @@ contains
 
       row_place = self%header_bytes + word_bytes*size(self%names, kind=int64)*(row - 1_int64)
    end function row_place
+
+   !> Read checksums of chunks that follow each other.
+   subroutine read_checksums(self, file, first, checksums, complete)
+      class(result_header_t), intent(in) :: self
+      type(random_access_file_t), intent(in) :: file
+      !> The first of them, from 1
+      integer(int64), intent(in) :: first
+      integer(int64), intent(out) :: checksums(:)
+      !> Whether all of them were read
+      logical, intent(out) :: complete
+      character(:), allocatable :: bytes
+
+      allocate (character(word_bytes*size(checksums, kind=int64)) :: bytes)
+      call file%read_at(self%checksum_place(first), bytes, complete)
+      if (complete) checksums = transfer(bytes, checksums)
+   end subroutine read_checksums
 
    !> Bytes before the input text.
    pure integer(int64) function text_place(header)
@@ -252,6 +269,7 @@ contains
       bytes = transfer(number, bytes)
    end function int32_bytes
 
+   !> A long integer in the byte order of the machine.
    pure function int64_bytes(number) result(bytes)
       integer(int64), intent(in) :: number
       character(8) :: bytes

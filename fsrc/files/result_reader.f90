@@ -1,7 +1,9 @@
 !> Reads result files that this program wrote, see result_format.
 module result_reader
-   use checksum, only: checksum_t
+   use byte_file, only: new_path
+   use checksum, only: checksum_of, checksum_t
    use errors, only: error_t, exit_bad_input, raise
+   use file_system, only: path_exists
    use kinds, only: dp, int64
    use random_access_file, only: random_access_file_t
    use result_format, only: column_name_bytes, series_table_magic
@@ -38,6 +40,8 @@ module result_reader
       procedure :: read_rows
       procedure :: close => close_result
    end type result_reader_t
+
+   public :: checksum_of_new_result
 
 contains
 
@@ -95,7 +99,7 @@ contains
             last = min(first + header%chunk_rows - 1_int64, header%seal%rows)
             stored = header%seal%rest_checksum
             sound = .true.
-            if (last - first + 1_int64 == header%chunk_rows) call self%file%read_at(header%checksum_place(chunk), stored, sound)
+            if (last - first + 1_int64 == header%chunk_rows) call header%read_checksums(self%file, chunk, stored, sound)
             found = checksum_t()
             do start = first, last, block_rows
                part = min(block_rows, last - start + 1_int64)
@@ -133,5 +137,41 @@ contains
 
       call self%file%close(ignored)
    end subroutine close_result
+
+   !> The checksum that binds a summary to its result, 0 if none can be read: that of all bytes before the first row, among which
+   !> stand the checksums of the rows. So it knows every byte of the file, and is had without reading the rows.
+   integer(int64) function checksum_of_result(path) result(sum_of_head)
+      character(*), intent(in) :: path
+      type(random_access_file_t) :: file
+      type(result_header_t) :: header
+      type(error_t), allocatable :: error, ignored
+      character(:), allocatable :: head
+      logical :: complete
+
+      sum_of_head = 0_int64
+      call file%open_to_read(path, error)
+      if (allocated(error)) return
+      call read_result_header(file, path, header, error)
+      if (.not. allocated(error)) then
+         allocate (character(header%header_bytes) :: head)
+         call file%read_at(0_int64, head, complete)
+         if (complete) sum_of_head = checksum_of(head)
+      end if
+      call file%close(ignored)
+   end function checksum_of_result
+
+   !> Checksum of the result that this run has written, beside its place or there; 0 if none can be read.
+   integer(int64) function checksum_of_new_result(path) result(sum_of_head)
+      !> Its place
+      character(*), intent(in) :: path
+      logical :: is_beside
+
+      is_beside = path_exists(new_path(path))
+      if (is_beside) then
+         sum_of_head = checksum_of_result(new_path(path))
+      else
+         sum_of_head = checksum_of_result(path)
+      end if
+   end function checksum_of_new_result
 
 end module result_reader

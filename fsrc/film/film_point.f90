@@ -3,8 +3,9 @@ module film_point
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use film_pressure, only: barus_pressure, exact_pressure, limiting_film_ratio, pressure_scale
    use kinds, only: dp
-   use numerical_reynolds, only: film_problem_t, film_solution_t, law_barus, law_roelands, reynolds_converged, scale_film, &
-                                 solve_reynolds
+   use numerical_reynolds, only: film_solution_t, scale_film, solve_reynolds
+   use numerical_reynolds_grid, only: film_problem_t, law_barus, law_roelands
+   use numerical_reynolds_rupture, only: reynolds_converged
    use published_iso_viscous, only: published_stiffness_damping, rolling_coefficient, solved_rupture_load, squeeze_coefficient
    use regime, only: contact_deflection, film_regime
    use reynolds_iso_viscous, only: rupture_tangent_fast

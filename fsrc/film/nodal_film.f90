@@ -16,7 +16,7 @@ module nodal_film
    use kinds, only: dp
    use linear_equations, only: eliminate
    use reynolds_iso_viscous, only: rupture_tangent_fast
-   use scene_types, only: viscosity_barus, viscosity_constant, viscosity_roelands
+   use scene_types, only: viscosity_barus, viscosity_constant
    implicit none(type, external)
    private
 

@@ -4,20 +4,15 @@
 !> form of pressure, load or rupture is used, nor the groups of the other modules: a reference solution that shared a formula
 !> would share its fault.
 module numerical_reynolds
-   use constants, only: half_pi, pi
+   use constants, only: half_pi
    use kinds, only: dp
-   use numerical_reynolds_grid, only: film_grid, film_problem_t, grid_t, law_barus, law_constant, &
-      law_roelands, log_viscosity_ratio, width
-   use numerical_reynolds_rupture, only: locate_rupture, minimum_film_nodes, reynolds_bad_input, &
-      reynolds_converged, reynolds_no_rigid_film, reynolds_not_converged, reynolds_unresolved, &
-      solve_complementarity, start_pressure
+   use numerical_reynolds_grid, only: film_grid, film_problem_t, grid_t, law_barus, law_constant, law_roelands, width
+   use numerical_reynolds_rupture, only: locate_rupture, minimum_film_nodes, reynolds_bad_input, reynolds_converged, &
+      reynolds_unresolved, solve_complementarity, start_pressure
    implicit none(type, external)
    private
 
-   public :: film_problem_t, film_solution_t, scale_film, solve_reynolds, log_viscosity_ratio
-   public :: law_constant, law_barus, law_roelands
-   public :: reynolds_converged, reynolds_no_rigid_film, reynolds_not_converged, reynolds_unresolved, &
-      reynolds_bad_input
+   public :: film_solution_t, scale_film, solve_reynolds
 
    integer, parameter :: minimum_cells = 16
    integer, parameter :: outlet_cells = 3

@@ -3,12 +3,11 @@
 module regime
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use constants, only: two_pi
-   use flank_elasticity, only: equivalent_radius, plane_strain_modulus
    use kinds, only: dp
    implicit none(type, external)
    private
 
-   public :: equivalent_radius, plane_strain_modulus, contact_deflection, hertzian_pressure, grubin_film
+   public :: contact_deflection, hertzian_pressure, grubin_film
    public :: viscosity_group, elasticity_group, film_parameter, limiting_films, mapped_regime, film_regime
 
    !> Codes of the regime map, in the order of `limiting_films`.

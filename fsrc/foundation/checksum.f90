@@ -32,9 +32,8 @@ module checksum
       procedure :: value => checksum_value
    end type checksum_t
 
-   !> Checksum of reals of rank 1 or 2, or of a text.
+   !> Checksum of a table of numbers, or of a text.
    interface checksum_of
-      module procedure checksum_of_list
       module procedure checksum_of_table
       module procedure checksum_of_text
    end interface checksum_of
@@ -43,18 +42,7 @@ module checksum
 
 contains
 
-   !> Checksum of a list of numbers, by their bits: it tells 0 from -0, and one NaN from another.
-   pure integer(int64) function checksum_of_list(numbers)
-      !> Any numbers, NaN and infinities included
-      real(dp), contiguous, intent(in) :: numbers(:)
-      type(checksum_t) :: sum_of_all
-
-      ! gfortran 12 loads the first of no numbers where it hands them on with their count.
-      if (size(numbers) > 0) call add_words(sum_of_all, size(numbers, kind=int64), numbers)
-      checksum_of_list = sum_of_all%value()
-   end function checksum_of_list
-
-   !> Checksum of a table of numbers, in the order of its storage.
+   !> Checksum of a table of numbers, by their bits in the order of its storage: it tells 0 from -0, and one NaN from another.
    pure integer(int64) function checksum_of_table(numbers)
       !> Any numbers, NaN and infinities included
       real(dp), contiguous, intent(in) :: numbers(:, :)
@@ -83,7 +71,8 @@ contains
       !> Any numbers, NaN and infinities included
       real(dp), contiguous, intent(in) :: numbers(:, :)
 
-      call add_words(self, size(numbers, kind=int64), numbers)
+      ! gfortran 12 loads the first of no numbers where it hands them on with their count.
+      if (size(numbers) > 0) call add_words(self, size(numbers, kind=int64), numbers)
    end subroutine add_numbers
 
    !> Checksum of all numbers so far, never 0.

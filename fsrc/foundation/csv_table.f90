@@ -1,31 +1,50 @@
-!> A table of numbers from a CSV file: a header with names, then a line of numbers for each row.
+!> Numbers of a CSV file as people write it: a header with names, then lines of numbers. Lines that begin with '#' are comments,
+!> empty ones are skipped. What is wrong is reported with its line and column, never with what stands there: a path may lead to a
+!> file that is nobody's business.
 module csv_table
    use csv_fields, only: csv_text_t, field_t
-   use csv_lines, only: next_line, read_names, take_number, wrong_count
    use errors, only: fault_list_t
    use kinds, only: dp, int64
+   use number_text, only: read_strict_real
    use text, only: integer_text
    use word_list, only: word_t
    implicit none(type, external)
    private
 
-   integer, parameter :: most_lines = 20000
+   integer, parameter :: most_lines_of_tables = 20000
 
    !> What a file holds.
    type, public :: csv_table_t
-      !> Names of the columns, and the line of the header
+      !> Names of the columns, without quotes around them, and the line of the header
       type(word_t), allocatable :: names(:)
       integer :: header = 0
       !> (row, column), and the line of each row
       real(dp), allocatable :: values(:, :)
       integer, allocatable :: lines(:)
+      !> Most significant digits of a number in the last column that was read, and most of them behind its point
+      integer :: most_digits = 0, most_decimals = -range(1.0_dp)
+      type(csv_text_t), private :: text
+      character(:), allocatable, private :: path
+      !> Lines of the file, and the one that was read last
+      integer, private :: line_count = 0, line = 0
+      !> Fields of that line, and how many it has; 0: the file has ended
+      type(field_t), allocatable, private :: fields(:)
+      integer, private :: columns = 0
+   contains
+      procedure :: open => open_table
+      procedure :: has_numbers
+      procedure :: read => read_rows
+      procedure :: close => close_table
+      procedure, private :: next_line
+      procedure, private :: read_names
+      procedure, private :: refuse
    end type csv_table_t
 
    public :: read_csv_table
 
 contains
 
-   !> Read all columns.
+   !> Read all columns of a table.
    subroutine read_csv_table(path, example, table, faults)
       !> Path of the file
       character(*), intent(in) :: path
@@ -35,66 +54,264 @@ contains
       type(csv_table_t), intent(out) :: table
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
-      type(csv_text_t) :: text
-      type(field_t), allocatable :: fields(:)
-      character(:), allocatable :: message
-      integer(int64) :: lines
-      integer :: before, line, count
+      integer :: before, i
 
       before = faults%count()
-      allocate (table%names(0), table%values(0, 0), table%lines(0))
-      call text%open(path, lines, message)
-      if (len(message) == 0 .and. lines > int(most_lines, int64)) message = 'it has more than '//integer_text(most_lines)// &
-                                                                            ' lines; that is no table of a test stand'
-      if (len(message) > 0) then
-         call faults%add(path, 0, '', '', message)
-         call text%close()
-         return
-      end if
-      line = 0
-      call next_line(text, int(lines), line, fields, count)
-      table%header = line
-      call read_names(path, line, example, fields(:count), table%names, faults)
-      if (faults%count() == before) call read_rows(text, path, int(lines), line, table, faults)
-      call text%close()
+      call table%open(path, most_lines_of_tables, 'that is no table of a test stand', example, faults)
+      if (faults%count() == before) call table%read([(i, i=1, size(table%names))], faults)
+      call table%close()
       if (faults%count() == before .and. size(table%lines) == 0) &
          call faults%add(path, table%header, '', '', 'there is no line of numbers after the header')
    end subroutine read_csv_table
 
-   !> All lines behind the header.
-   subroutine read_rows(text, path, lines, line, table, faults)
-      type(csv_text_t), intent(inout) :: text
+   !> Open a file, and read its header and the line behind it.
+   subroutine open_table(self, path, most_lines, verdict, example, faults)
+      class(csv_table_t), intent(inout) :: self
       character(*), intent(in) :: path
-      integer, intent(in) :: lines
-      integer, intent(inout) :: line
-      type(csv_table_t), intent(inout) :: table
+      !> Lines that it has at most, and what a file with more of them is
+      integer, intent(in) :: most_lines
+      character(*), intent(in) :: verdict
+      !> A header as it may be
+      character(*), intent(in) :: example
+      !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
-      type(field_t), allocatable :: fields(:)
       character(:), allocatable :: message
+      integer(int64) :: lines
+
+      self%path = path
+      allocate (self%names(0), self%values(0, 0), self%lines(0), self%fields(2))
+      call self%text%open(path, lines, message)
+      if (len(message) == 0 .and. lines > int(most_lines, int64)) &
+         message = 'it has more than '//integer_text(most_lines)//' lines; '//verdict
+      if (len(message) > 0) then
+         call faults%add(path, 0, '', '', message)
+         return
+      end if
+      self%line_count = int(lines)
+      call self%next_line()
+      self%header = self%line
+      call self%read_names(example, faults)
+      call self%next_line()
+   end subroutine open_table
+
+   !> Close the file.
+   subroutine close_table(self)
+      class(csv_table_t), intent(inout) :: self
+
+      call self%text%close()
+   end subroutine close_table
+
+   !> Read the next line that is neither a comment nor empty; without any field at the end of the file.
+   subroutine next_line(self)
+      class(csv_table_t), intent(inout) :: self
+      type(field_t) :: field
+      character(:), allocatable :: first
+
+      self%columns = 0
+      do while (self%line < self%line_count .and. .not. (self%text%broken .or. self%text%stopped))
+         self%line = self%line + 1
+         self%columns = 0
+         do
+            call self%text%take_field(field)
+            self%columns = self%columns + 1
+            if (self%columns > size(self%fields)) self%fields = [self%fields, self%fields]
+            self%fields(self%columns) = field
+            if (field%ends_line) exit
+         end do
+         first = self%fields(1)%word()
+         if (.not. (index(first, '#') == 1 .or. (self%columns == 1 .and. len(first) == 0))) return
+         self%columns = 0
+      end do
+   end subroutine next_line
+
+   !> The header: names that commas separate.
+   subroutine read_names(self, example, faults)
+      class(csv_table_t), intent(inout) :: self
+      character(*), intent(in) :: example
+      type(fault_list_t), intent(inout) :: faults
+      character(:), allocatable :: message
+      real(dp) :: number
+      logical :: sound
+      integer :: i
+
+      message = ''
+      deallocate (self%names)
+      allocate (self%names(self%columns))
+      do i = 1, self%columns
+         self%names(i)%text = self%fields(i)%bare()
+         if (len(message) > 0) cycle
+         call read_strict_real(self%names(i)%text, number, sound)
+         if (sound) message = 'the first line holds numbers; it must name the columns, such as '//example
+         if (index(self%names(i)%text, achar(0)) > 0) message = 'it is no plain text; save it as CSV in UTF-8'
+         if (index(self%names(i)%text, achar(13)) > 0) message = 'carriage returns alone end its lines; line feeds are needed'
+         if (len(wrong_separator(self%fields(:self%columns))) > 0) message = wrong_separator(self%fields(:self%columns))
+      end do
+      if (self%columns == 0) message = 'the file is empty; its first line must name its columns, such as '//example
+      if (len(message) > 0) call faults%add(self%path, merge(self%line, 0, self%columns > 0), '', '', message)
+   end subroutine read_names
+
+   !> Whether the line that was read last has a field for each name, and a number among them: then the header is one.
+   pure logical function has_numbers(self)
+      class(csv_table_t), intent(in) :: self
+      real(dp) :: number
+      logical :: sound
+      integer :: i
+
+      has_numbers = .false.
+      if (self%columns /= size(self%names)) return
+      do i = 1, self%columns
+         call read_strict_real(self%fields(i)%bare(), number, sound)
+         has_numbers = has_numbers .or. sound
+      end do
+   end function has_numbers
+
+   !> Read some columns of all lines from the present one on.
+   subroutine read_rows(self, chosen, faults)
+      class(csv_table_t), intent(inout) :: self
+      !> Their places
+      integer, intent(in) :: chosen(:)
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
       real(dp), allocatable :: values(:, :)
-      integer :: rows(lines), row, column, columns
+      integer, allocatable :: lines(:)
+      character(:), allocatable :: cause
+      integer :: row, i, digits, decimals
       logical :: is_hopeless
 
-      allocate (values(lines, size(table%names)))
+      is_hopeless = .false.
+      allocate (values(self%line_count, size(chosen)), lines(self%line_count))
       row = 0
       do
-         call next_line(text, lines, line, fields, columns)
-         if (text%broken) call faults%add(path, line, '', '', 'it cannot be read to its end')
-         if (text%stopped) call faults%add(path, line, '', '', 'there was no time to read it to its end')
-         if (columns == 0 .or. text%broken .or. text%stopped .or. faults%not_kept() > 0) exit
+         if (self%text%broken) call self%refuse('it cannot be read to its end', faults)
+         if (self%text%stopped) call self%refuse('there was no time to read it to its end', faults)
+         if (self%columns == 0 .or. self%text%broken .or. self%text%stopped .or. faults%not_kept() > 0) exit
          row = row + 1
-         rows(row) = line
-         is_hopeless = columns /= size(table%names)
-         if (is_hopeless) call faults%add(path, line, '', '', wrong_count(fields(:columns), size(table%names)))
-         do column = 1, size(table%names)
-            if (is_hopeless) exit
-            call take_number(fields(:columns), column, row == 1, values(row, column), message, is_hopeless)
-            if (len(message) > 0) call faults%add(path, line, '', '', message)
-         end do
+         lines(row) = self%line
+         if (self%columns == size(self%names)) then
+            do i = 1, size(chosen)
+               if (.not. is_hopeless) call read_number(chosen(i), values(row, i))
+            end do
+            call count_digits(self%fields(chosen(size(chosen)))%bare(), digits, decimals)
+            self%most_digits = max(self%most_digits, digits)
+            if (digits > 0) self%most_decimals = max(self%most_decimals, decimals)
+         else
+            cause = cause_of_count(self%fields(:self%columns), size(self%names))
+            call self%refuse('the line has '//integer_text(self%columns)//' columns, the header '// &
+                             integer_text(size(self%names))//cause, faults)
+            ! What is wrong with the first line, or with how the numbers are written, is wrong with all that follow.
+            is_hopeless = row == 1 .or. len(cause) > 0
+         end if
          if (is_hopeless) exit
+         call self%next_line()
       end do
-      table%values = values(:row, :)
-      table%lines = rows(:row)
+      self%values = values(:row, :)
+      self%lines = lines(:row)
+
+   contains
+
+      !> A number, or what is wrong where it should stand.
+      subroutine read_number(position, number)
+         integer, intent(in) :: position
+         real(dp), intent(out) :: number
+         character(:), allocatable :: message, word
+         logical :: sound
+
+         word = self%fields(position)%bare()
+         call read_strict_real(word, number, sound)
+         if (sound) return
+         message = wrong_separator(self%fields(:self%columns))
+         is_hopeless = len(message) > 0
+         if (.not. is_hopeless) then
+            message = 'column '//integer_text(position)//': no number stands here'
+            if (len(word) == 0) then
+               message = 'column '//integer_text(position)//': a number is missing'
+            else if (row == 1) then
+               message = message//'; units belong into the name, as in time_s'
+               is_hopeless = .true.
+            end if
+         end if
+         call self%refuse(message, faults)
+      end subroutine read_number
+
    end subroutine read_rows
+
+   !> Add a fault of the line that was read last.
+   subroutine refuse(self, message, faults)
+      class(csv_table_t), intent(in) :: self
+      character(*), intent(in) :: message
+      type(fault_list_t), intent(inout) :: faults
+
+      call faults%add(self%path, self%line, '', '', message)
+   end subroutine refuse
+
+   !> What separates the columns of a line if it is no comma, as a fault; empty if nothing seems to.
+   pure function wrong_separator(fields) result(message)
+      type(field_t), intent(in) :: fields(:)
+      character(:), allocatable :: message
+      character(*), parameter :: tab = achar(9)
+      character(:), allocatable :: word, bare
+      integer :: i
+
+      message = ''
+      do i = 1, size(fields)
+         word = fields(i)%word()
+         bare = fields(i)%bare()
+         ! A name in one pair of quotes may hold anything.
+         if (word /= bare .and. scan(bare, '"'//"'") == 0) cycle
+         if (index(word, ';') > 0) message = 'semicolons separate the columns; commas are needed, and points in the numbers'
+         if (len(message) == 0 .and. index(word, tab) > 0) message = 'tabs separate the columns; commas are needed'
+      end do
+   end function wrong_separator
+
+   !> Why a line may have too many columns; empty if nothing seems to be the cause.
+   pure function cause_of_count(fields, names) result(cause)
+      type(field_t), intent(in) :: fields(:)
+      !> Columns of the header
+      integer, intent(in) :: names
+      character(:), allocatable :: cause
+      real(dp) :: number
+      logical :: sound
+      integer :: i
+
+      cause = ''
+      if (len(wrong_separator(fields)) > 0) cause = ': '//wrong_separator(fields)
+      if (len(cause) > 0 .or. size(fields) < names) return
+      do i = 1, size(fields)
+         call read_strict_real(without_half_quotes(fields(i)%bare()), number, sound)
+         if (.not. sound) return
+      end do
+      cause = ': with a decimal comma a number is two columns; write a decimal point'
+   end function cause_of_count
+
+   !> A field without a quote at its begin or its end: a number with a decimal comma begins in one field and ends in the next.
+   pure function without_half_quotes(word) result(rest)
+      character(*), intent(in) :: word
+      character(:), allocatable :: rest
+
+      rest = word
+      if (index(rest, '"') == 1) rest = rest(2:)
+      if (len(rest) > 0 .and. index(rest, '"') == len(rest)) rest = rest(:len(rest) - 1)
+   end function without_half_quotes
+
+   !> How many significant digits a number has, and how many of them behind the point of one without an exponent.
+   pure subroutine count_digits(word, digits, decimals)
+      !> A sound number
+      character(*), intent(in) :: word
+      integer, intent(out) :: digits
+      integer, intent(out) :: decimals
+      integer :: mark, exponent, stat, point, first
+
+      mark = scan(word//'e', 'eEdD')
+      exponent = 0
+      if (mark < len(word)) read (word(mark + 1:), *, iostat=stat) exponent
+      point = index(word(:mark - 1), '.')
+      decimals = -exponent
+      if (point > 0) decimals = mark - 1 - point - exponent
+      first = scan(word(:mark - 1), '123456789')
+      digits = 0
+      if (first == 0) return
+      digits = mark - first
+      if (point > first) digits = digits - 1
+   end subroutine count_digits
 
 end module csv_table

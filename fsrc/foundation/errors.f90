@@ -132,16 +132,15 @@ contains
    end subroutine keep
 
    !> Append an error that was found while the input was looked at. One of the system is not the fault of the input.
-   pure subroutine add_error(self, file, line, group, key, error)
+   pure subroutine add_error(self, file, group, key, error)
       class(fault_list_t), intent(inout) :: self
       !> Place in the input, as for a fault
       character(*), intent(in) :: file
-      integer, intent(in) :: line
       character(*), intent(in) :: group
       character(*), intent(in) :: key
       type(error_t), intent(in) :: error
 
-      call self%add(file, line, group, key, error%message)
+      call self%add(file, 0, group, key, error%message)
       self%exit_code = max(self%exit_code, error%exit_code)
    end subroutine add_error
 

@@ -45,8 +45,7 @@ contains
             if (kept > 0 .or. word(at:at) /= '0') kept = kept + 1
             if (kept > 0 .and. .not. point) leading = leading + 1
             if (kept == 0 .and. point) leading = leading - 1
-            if (kept > 0 .and. kept <= exact_digits) &
-               digits = 10_int64*digits + int(iachar(word(at:at)) - 48, int64)
+            if (kept > 0 .and. kept <= exact_digits) digits = 10_int64*digits + int(iachar(word(at:at)) - 48, int64)
          case ('.')
             if (point) return
             point = .true.

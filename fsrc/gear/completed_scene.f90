@@ -1,7 +1,7 @@
 !> What an input is told of the scene that follows from it: faults, warnings, and the numbers that follow as comments of the
 !> resolved input.
 module completed_scene
-   use derived_scene, only: accelerations_of, derive, derived_rules, pair_of
+   use derived_scene, only: accelerations_of, derive, derived_rules
    use errors, only: fault_list_t
    use gear_contact, only: find_contact, gear_contact_t
    use input_entry, only: numbers_text
@@ -39,8 +39,7 @@ contains
       do i = 1, size(broken)
          associate (key => broken(i)%keys)
             dot = index(key, '.')
-            call faults%add(scene%source, scene%lines(find_key(key(:dot - 1), key(dot + 1:))), key(:dot - 1), trim(key(dot + 1:)), &
-                            trim(broken(i)%sentence))
+            call faults%add(scene%source, scene%lines(find_key(key)), key(:dot - 1), trim(key(dot + 1:)), trim(broken(i)%sentence))
          end associate
       end do
       if (size(broken) > 0) return
@@ -113,7 +112,7 @@ contains
       integer :: i, key
 
       ends = scene%oil%temperature_celsius
-      key = find_key('oil', 'temperature_celsius')
+      key = find_key('oil.temperature_celsius')
       if (scene%task == task_sweep) then
          if (scene%sweep%key == key) ends = [minval(scene%sweep%values), maxval(scene%sweep%values)]
       end if
@@ -136,7 +135,7 @@ contains
       type(gear_contact_t) :: contact
       character(:), allocatable :: wrong, message
 
-      call find_contact(pair_of(scene), scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
+      call find_contact(scene%gear, scene%drag%torque, scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
       associate (excitation => scene%excitation)
          if (excitation%steady_force >= excitation%force_scale*sum(excitation%force_amplitudes)) scene%warnings = [scene%warnings, &
             word_t('warning: the drag of '//short_text(excitation%steady_force, 4)//' N is larger than the inertia force of '// &

@@ -2,7 +2,7 @@
 !> number of these groups, an input, a sweep or a campaign, derives the scene from them behind it.
 module derived_scene
    use constants, only: pi, two_pi
-   use gear_contact, only: find_contact, gear_contact_t, gear_pair_t
+   use gear_contact, only: find_contact, gear_contact_t
    use input_key, only: is_computable
    use key_table, only: find_key, keys
    use kinds, only: dp
@@ -14,7 +14,7 @@ module derived_scene
    implicit none(type, external)
    private
 
-   public :: derive, derived_rules, base_order, pair_of, accelerations_of
+   public :: derive, derived_rules, base_order, accelerations_of
 
 contains
 
@@ -34,7 +34,7 @@ contains
       end if
       if (.not. scene%gear%given) return
       scene%drag = drag_of_gear(scene%gear, scene%shaft%speed_rpm, scene%oil)
-      call find_contact(pair_of(scene), scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
+      call find_contact(scene%gear, scene%drag%torque, scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
       scene%contact%radius = contact%radius
       scene%contact%length = contact%length
       scene%contact%backlash = scene%gear%backlash
@@ -87,17 +87,6 @@ contains
       viscosity_at = oil_viscosity(scene%oil%viscosity_40_cst, scene%oil%viscosity_100_cst, scene%oil%density_15, temperature)
    end function viscosity_at
 
-   !> The pair of gears as its geometry takes it.
-   pure type(gear_pair_t) function pair_of(scene)
-      type(scene_t), intent(in) :: scene
-
-      associate (gear => scene%gear)
-         pair_of = gear_pair_t(gear%teeth_1, gear%teeth_2, gear%normal_module, gear%pressure_angle_deg, gear%helix_angle_deg, &
-                               gear%face_width, gear%centre_distance, gear%contact_position, gear%contact_lines, &
-                               gear%loose_inertia, scene%drag%torque, gear%tip_diameter_1, gear%tip_diameter_2)
-      end associate
-   end function pair_of
-
    !> Greatest common divisor of orders, which have halves among them in a four-stroke engine; 0 if they have none above a
    !> hundred-thousandth of the largest. Times the speed of the shaft [1/s] it is the frequency that the motion repeats with,
    !> and the orders over it are whole numbers.
@@ -135,29 +124,29 @@ contains
 
       allocate (broken(0))
       if (scene%oil%given) then
-         call demand(broken, 'lubricant', 'viscosity', scene%lubricant%viscosity, 'oil.temperature_celsius')
-         call demand(broken, 'lubricant', 'pressure_viscosity', scene%lubricant%pressure_viscosity, 'oil.temperature_celsius')
+         call demand(broken, 'lubricant.viscosity', scene%lubricant%viscosity, 'oil.temperature_celsius')
+         call demand(broken, 'lubricant.pressure_viscosity', scene%lubricant%pressure_viscosity, 'oil.temperature_celsius')
       end if
       if (scene%oil%given .and. .not. scene%gear%given) broken = [broken, broken_elastic_rules(scene)]
       if (.not. scene%gear%given) return
-      call find_contact(pair_of(scene), scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
+      call find_contact(scene%gear, scene%drag%torque, scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
       if (len(wrong) > 0) then
          call add(broken, 'gear.'//wrong, message)
          return
       end if
-      call demand(broken, 'contact', 'radius', scene%contact%radius, 'gear.contact_position')
-      call demand(broken, 'contact', 'length', scene%contact%length, 'gear.face_width')
-      call demand(broken, 'kinematics', 'entrainment_speed', scene%kinematics%entrainment_speed, 'shaft.speed_rpm')
-      call demand(broken, 'load', 'mass', scene%excitation%mass, 'gear.loose_inertia')
+      call demand(broken, 'contact.radius', scene%contact%radius, 'gear.contact_position')
+      call demand(broken, 'contact.length', scene%contact%length, 'gear.face_width')
+      call demand(broken, 'kinematics.entrainment_speed', scene%kinematics%entrainment_speed, 'shaft.speed_rpm')
+      call demand(broken, 'load.mass', scene%excitation%mass, 'gear.loose_inertia')
       call add_drag_rules(broken, scene)
       if (allocated(scene%shaft%table)) &
-         call demand_within(broken, 'shaft', 'speed_rpm', scene%shaft%speed_rpm, scene%shaft%table%speeds, 'shaft.table')
+         call demand_within(broken, 'shaft.speed_rpm', scene%shaft%speed_rpm, scene%shaft%table%speeds, 'shaft.table')
       base = base_order(scene%shaft%orders)
       if (.not. base > 0.0_dp) then
          call add(broken, orders_key(scene), 'they have no common divisor to repeat with; halves, thirds and the like have')
          return
       end if
-      call demand(broken, 'load', 'frequency', scene%excitation%frequency, 'shaft.speed_rpm')
+      call demand(broken, 'load.frequency', scene%excitation%frequency, 'shaft.speed_rpm')
       if (maxval(scene%excitation%force_orders) > highest_order) &
          call add(broken, orders_key(scene), 'the highest is too large a multiple of their common divisor')
       if (scene%solver%samples_per_period() < 4*maxval(scene%excitation%force_orders)) &
@@ -185,8 +174,8 @@ contains
          select case (scene%drag%known_by)
          case (drag_tabulated)
             cause = 'gear.drag_table'
-            call demand_within(broken, 'shaft', 'speed_rpm', scene%shaft%speed_rpm, gear%drag_table%speeds, cause)
-            call demand_within(broken, 'oil', 'temperature_celsius', scene%oil%temperature_celsius, &
+            call demand_within(broken, 'shaft.speed_rpm', scene%shaft%speed_rpm, gear%drag_table%speeds, cause)
+            call demand_within(broken, 'oil.temperature_celsius', scene%oil%temperature_celsius, &
                                gear%drag_table%temperatures, cause)
          case (drag_computed)
             cause = 'gear.bearing_mean_diameter'
@@ -202,7 +191,7 @@ contains
          case default
             cause = 'gear.drag_torque'
          end select
-         call demand(broken, 'load', 'steady_force', scene%excitation%steady_force, trim(cause))
+         call demand(broken, 'load.steady_force', scene%excitation%steady_force, trim(cause))
          if (scene%drag%known_by == drag_given .or. gear%backlash > 0.0_dp .or. scene%drag%torque > 0.0_dp) return
          write (sentence, '(a, es10.3, a)') 'without a backlash the drag torque must be positive; here it is', &
             scene%drag%torque, ' N m'
@@ -211,11 +200,10 @@ contains
    end subroutine add_drag_rules
 
    !> A value must lie within the rows of a table.
-   pure subroutine demand_within(broken, group, name, value, axis, table)
+   pure subroutine demand_within(broken, key, value, axis, table)
       type(rule_t), allocatable, intent(inout) :: broken(:)
       !> Key of the value
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      character(*), intent(in) :: key
       real(dp), intent(in) :: value
       !> Ascending
       real(dp), intent(in) :: axis(:)
@@ -224,9 +212,9 @@ contains
       character(sentence_length) :: sentence
 
       if (is_within(axis, value)) return
-      write (sentence, '(a, g0.7, 5a, 2(g0.7, a))') 'it is ', value, ' ', trim(keys(find_key(group, name))%unit), ' and ', &
-         trim(table), ' goes from ', axis(1), ' to ', axis(size(axis)), ' '//trim(keys(find_key(group, name))%unit)
-      call add(broken, group//'.'//name, sentence)
+      write (sentence, '(a, g0.7, 5a, 2(g0.7, a))') 'it is ', value, ' ', trim(keys(find_key(key))%unit), ' and ', &
+         trim(table), ' goes from ', axis(1), ' to ', axis(size(axis)), ' '//trim(keys(find_key(key))%unit)
+      call add(broken, key, sentence)
    end subroutine demand_within
 
    !> Add a rule that is broken.
@@ -239,21 +227,20 @@ contains
    end subroutine add
 
    !> A number that is derived must be one that can be computed with.
-   pure subroutine demand(broken, group, name, value, cause)
+   pure subroutine demand(broken, key, value, cause)
       type(rule_t), allocatable, intent(inout) :: broken(:)
       !> Its key
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      character(*), intent(in) :: key
       real(dp), intent(in) :: value
       !> Key that it follows from
       character(*), intent(in) :: cause
       character(sentence_length) :: sentence
       integer :: position
 
-      position = find_key(group, name)
+      position = find_key(key)
       if (is_computable(keys(position), value)) return
-      write (sentence, '(3a, es9.2, 3a, es8.1, a, es8.1)') 'the ', name, ' that follows is ', value, ' ', &
-         trim(keys(position)%unit), '; possible:', keys(position)%computable%lower, ' to', keys(position)%computable%upper
+      write (sentence, '(3a, es9.2, 3a, es8.1, a, es8.1)') 'the ', trim(keys(position)%name), ' that follows is ', value, ' ', &
+         trim(keys(position)%unit), '; possible:', keys(position)%computable(1), ' to', keys(position)%computable(2)
       call add(broken, cause, sentence)
    end subroutine demand
 

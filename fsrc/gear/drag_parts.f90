@@ -1,13 +1,11 @@
 !> What brakes a loose gear, part by part: its bearing, the gaps of its synchroniser, the oil that it churns. Each torque is a
 !> positive size; which way it pulls is decided in module loose_gear_drag.
 module drag_parts
-   use constants, only: pi
+   use constants, only: pi, standard_gravity
    use kinds, only: dp
    implicit none(type, external)
    private
 
-   !> Acceleration of free fall in the Froude number [m/s2]
-   real(dp), parameter :: free_fall = 9.80665_dp
    !> Heat conductivity of oil [W/(m K)]
    real(dp), parameter :: conductivity = 0.14_dp
    !> Above this Taylor number the flow in a sheared gap is no longer laminar (Taylor 1923)
@@ -99,7 +97,7 @@ contains
       ! S_m: both faces, the rim, and the flanks of teeth that are H = 2.25 m_n high
       surface = radius**2*(2.0_dp*t - sin(2.0_dp*t)) + diameter*width*t &
                 + 2.0_dp*real(teeth, dp)*t*2.25_dp*normal_module*width/(pi*cos(transverse_angle)*cos(helix_angle))
-      froude = speed**2*radius/free_fall
+      froude = speed**2*radius/standard_gravity
       slow = 1.366_dp*(depth/diameter)**0.45_dp*(volume/diameter**3)**0.1_dp*froude**(-0.6_dp)* &
              (speed*radius**2/viscosity)**(-0.21_dp)
       fast = 3.644_dp*(depth/diameter)**0.1_dp*(volume/diameter**3)**(-0.35_dp)*froude**(-0.88_dp)*(width/diameter)**0.85_dp

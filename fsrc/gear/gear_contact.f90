@@ -4,38 +4,13 @@
 module gear_contact
    use constants, only: pi, two_pi
    use kinds, only: dp
+   use scene_types, only: gear_t
    implicit none(type, external)
    private
 
    real(dp), parameter :: degree = pi/180.0_dp
 
-   !> A gear pair as its drawing gives it.
-   type, public :: gear_pair_t
-      !> Teeth z_1 and z_2
-      integer :: teeth_1 = 0
-      integer :: teeth_2 = 0
-      !> Normal module m_n [m]
-      real(dp) :: normal_module = 0.0_dp
-      !> Normal pressure angle alpha_n and helix angle beta [degrees]
-      real(dp) :: pressure_angle = 20.0_dp
-      real(dp) :: helix_angle = 0.0_dp
-      !> Face width [m]
-      real(dp) :: face_width = 0.0_dp
-      !> Centre distance a [m]; 0: that without profile shift
-      real(dp) :: centre_distance = 0.0_dp
-      !> Place xi on the line of action, 0 at the pitch point, towards the root of gear 2 positive [m]
-      real(dp) :: contact_position = 0.0_dp
-      !> Lines in contact, each as long as the face is wide
-      real(dp) :: contact_lines = 1.0_dp
-      !> Inertia J_2 of the loose gear [kg m2] and drag torque T_d on it [N m]
-      real(dp) :: loose_inertia = 0.0_dp
-      real(dp) :: drag_torque = 0.0_dp
-      !> Tip diameters [m]; 0: not given, and contact_lines is
-      real(dp) :: tip_diameter_1 = 0.0_dp
-      real(dp) :: tip_diameter_2 = 0.0_dp
-   end type gear_pair_t
-
-   !> The contact of its flanks.
+   !> The contact of the flanks of a gear pair.
    type, public :: gear_contact_t
       !> Base radii r_b1 and r_b2, and centre distance a [m]
       real(dp) :: base_radius_1 = 0.0_dp
@@ -71,9 +46,11 @@ module gear_contact
 contains
 
    !> The contact of a gear pair. What is wrong with it is told with the name of the value that would have to change.
-   pure subroutine find_contact(pair, shaft_speed, contact, wrong, message)
-      !> The pair
-      type(gear_pair_t), intent(in) :: pair
+   pure subroutine find_contact(pair, drag_torque, shaft_speed, contact, wrong, message)
+      !> The pair: teeth z_1 and z_2, normal module m_n, centre distance a, place xi on the line of action
+      type(gear_t), intent(in) :: pair
+      !> Drag torque T_d on the loose gear [N m]
+      real(dp), intent(in) :: drag_torque
       !> Speed n/60 of the shaft [1/s]
       real(dp), intent(in) :: shaft_speed
       !> Its contact; radii, angles and ends of the line of action are known too where only contact_position is wrong
@@ -86,10 +63,10 @@ contains
 
       wrong = ''
       message = ''
-      helix = degree*pair%helix_angle
+      helix = degree*pair%helix_angle_deg
       transverse_module = pair%normal_module/cos(helix)
-      transverse_angle = atan(tan(degree*pair%pressure_angle)/cos(helix))
-      base_helix = asin(sin(helix)*cos(degree*pair%pressure_angle))
+      transverse_angle = atan(tan(degree*pair%pressure_angle_deg)/cos(helix))
+      base_helix = asin(sin(helix)*cos(degree*pair%pressure_angle_deg))
       contact%base_helix_angle = base_helix/degree
       contact%base_radius_1 = 0.5_dp*transverse_module*real(pair%teeth_1, dp)*cos(transverse_angle)
       contact%base_radius_2 = 0.5_dp*transverse_module*real(pair%teeth_2, dp)*cos(transverse_angle)
@@ -121,7 +98,7 @@ contains
       contact%surface_speed_2 = two_pi*shaft_speed*rho_2*real(pair%teeth_1, dp)/real(pair%teeth_2, dp)
       contact%entrainment_speed = 0.5_dp*(contact%surface_speed_1 + contact%surface_speed_2)
       contact%mass = pair%loose_inertia/(contact%base_radius_2*cos(base_helix))**2
-      contact%steady_force = pair%drag_torque/(contact%base_radius_2*cos(base_helix))
+      contact%steady_force = drag_torque/(contact%base_radius_2*cos(base_helix))
       contact%force_per_acceleration = contact%mass*cos(base_helix)*contact%base_radius_1
    end subroutine find_contact
 
@@ -129,7 +106,7 @@ contains
    !> is eps_alpha b/cos beta_b whatever eps_beta is. Without them the ratio is that of tips at r + m_n (1 + x), both
    !> gears with half of the sum of the profile shifts. ISO 21771.
    pure subroutine find_contact_ratios(pair, transverse_module, transverse_angle, working, contact, wrong, message)
-      type(gear_pair_t), intent(in) :: pair
+      type(gear_t), intent(in) :: pair
       real(dp), intent(in) :: transverse_module
       !> alpha_t and alpha_wt [rad]
       real(dp), intent(in) :: transverse_angle
@@ -143,10 +120,10 @@ contains
       logical :: given
       integer :: i
 
-      helix = degree*pair%helix_angle
+      helix = degree*pair%helix_angle_deg
       given = pair%tip_diameter_1 > 0.0_dp .and. pair%tip_diameter_2 > 0.0_dp
       shift = 0.5_dp*real(pair%teeth_1 + pair%teeth_2, dp)*(involute(working) - involute(transverse_angle)) &
-              /(2.0_dp*tan(degree*pair%pressure_angle))
+              /(2.0_dp*tan(degree*pair%pressure_angle_deg))
       tips = 0.5_dp*transverse_module*real([pair%teeth_1, pair%teeth_2], dp) + pair%normal_module*(1.0_dp + shift)
       if (given) tips = 0.5_dp*[pair%tip_diameter_1, pair%tip_diameter_2]
       bases = [contact%base_radius_1, contact%base_radius_2]

@@ -1,6 +1,6 @@
 !> Several gear pairs of one input as the one base scene of a campaign, whose slowest axis is the pair.
 module gearbox
-   use scene_types, only: gear_t, scene_t
+   use scene_types, only: scene_t
    use word_list, only: word_t
    implicit none(type, external)
    private

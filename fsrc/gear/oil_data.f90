@@ -5,11 +5,8 @@ module oil_data
    implicit none(type, external)
    private
 
-   !> Kinds of base oil.
-   integer, parameter, public :: base_mineral = 1, base_pao = 2, base_polyglycol = 3
-
-   !> Kinematic viscosity from which on ASTM D341 is meant [mm2/s], and the one that its formula stays above
-   real(dp), parameter, public :: least_viscosity_meant = 2.0_dp, least_viscosity_described = 0.3_dp
+   !> Kinematic viscosity from which on ASTM D341 is meant [mm2/s]; above 0.3 its formula holds
+   real(dp), parameter, public :: least_viscosity_meant = 2.0_dp
 
    !> 0 degC [K]
    real(dp), parameter :: zero_celsius = 273.15_dp
@@ -88,7 +85,7 @@ contains
 
    !> Barus coefficient alpha [1/Pa] from that at 38 degC, ISO/TR 15144-1 with 273.15 for its 273; positive below 510 degC.
    elemental real(dp) function oil_pressure_viscosity(base, viscosity_38, temperature) result(pressure_viscosity)
-      !> Kind of base oil, a code above
+      !> Kind of base oil, a code of scene_types
       integer, intent(in) :: base
       !> Dynamic viscosity at 38 degC [Pa s]
       real(dp), intent(in) :: viscosity_38

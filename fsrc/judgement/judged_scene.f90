@@ -15,8 +15,8 @@ module judged_scene
    use periodic_orbit, only: orbit_stability, periodic_orbit_t
    use quantities
    use carried_loads, only: contact_film
-   use flank_contact, only: of_central_film, of_film_at_pressure, of_pressure
-   use problem, only: contact_count, has_own_position, inner_places
+   use flank_contact, only: is_elastic, of_central_film, of_film_at_pressure, of_pressure
+   use problem, only: contact_count, inner_places
    use rattle_class, only: rattle_verdict_t
    use regime, only: deflection_limit, film_elastohydrodynamic
    use regime_check, only: closure_range, model_limit, regime_verdict_t
@@ -188,9 +188,9 @@ contains
             value = minval(lowest(seen_films(:contact_count(problem)))%value)
             value = real(model_limit(value, highest(seen_films(1))%value, problem%contact%film%radius), dp)
          case (quantity_gear_position_minimum)
-            if (has_own_position(problem)) value = lowest(seen_position)%value
+            if (is_elastic(problem%contact)) value = lowest(seen_position)%value
          case (quantity_gear_position_maximum)
-            if (has_own_position(problem)) value = highest(seen_position)%value
+            if (is_elastic(problem%contact)) value = highest(seen_position)%value
          case (quantity_reversals_per_period)
             value = judged%rattle%reversals_per_period
          case (quantity_first_harmonic)

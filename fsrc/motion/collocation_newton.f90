@@ -2,8 +2,9 @@
 !> nodes, load and slopes there, linear equations, corrections.
 module collocation_newton
    use collocation_basis, only: pass_share, rounding
+   use film_law, only: overflow_load
    use film_state, only: load_t
-   use flank_contact, only: flank_contact_t, is_costly, load_of_contact, mixed_loads, overflow_load
+   use flank_contact, only: flank_contact_t, is_costly, load_of_contact, mixed_loads
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_functions, only: half_block, lanes

@@ -3,8 +3,8 @@
 module elastic_newton
    use collocation_basis, only: pass_share, rounding
    use elastic_trial, only: follow_loads, sign_of, trial_t
-   use flank_contact, only: carries_positive_loads, equations_of_films, film_equations_t, flank_contact_t, keeps_load, kept_load, &
-      most_films
+   use film_law, only: kept_load, most_films
+   use flank_contact, only: carries_positive_loads, equations_of_films, film_equations_t, flank_contact_t, keeps_load
    use inner_equations, only: follow_films, inner_imbalances, inner_matrix, trial_inner_t
    use kinds, only: dp
    use lane_block, only: lane_block_t

@@ -7,7 +7,8 @@
 module elastic_tangents
    use elastic_newton, only: imbalances, newton_matrix, slopes_t
    use elastic_trial, only: sign_of, trial_t
-   use flank_contact, only: flank_contact_t, width_compression
+   use film_law, only: width_compression
+   use flank_contact, only: flank_contact_t
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use problem, only: of_drive_compression, of_film, of_velocity

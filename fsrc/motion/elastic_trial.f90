@@ -2,9 +2,9 @@
 !> Newton's method sets out from, and gear, springs and films that follow from the loads at the nodes.
 module elastic_trial
    use collocation_basis, only: can_extrapolate, carry_on
+   use film_law, only: film_over_gap, films_over_gaps, width_compression
    use film_state, only: load_t
-   use flank_contact, only: carries_positive_loads, film_over_gap, films_over_gaps, flank_contact_t, load_of_contact, &
-      width_compression
+   use flank_contact, only: carries_positive_loads, flank_contact_t, load_of_contact
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_inner, only: lane_inner_t

@@ -8,7 +8,7 @@ module lane_block
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
    use engine, only: motion_state_t
-   use flank_contact, only: overflow_load
+   use film_law, only: overflow_load
    use force, only: force_t, largest_oscillation
    use kinds, only: dp
    use lane_force, only: lane_force_t, no_forces, set_force, start_force

@@ -5,7 +5,7 @@ module lane_state
    use kinds, only: dp
    use lane_block, only: lane_block_t, slip_velocity
    use lane_inner, only: lane_inner_t
-   use problem, only: of_coast_compression, of_drive_compression, of_film, of_velocity
+   use problem, only: of_drive_compression, of_film, of_velocity
    use taylor_step_control, only: order
    implicit none(type, external)
    private

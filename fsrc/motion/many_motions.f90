@@ -3,8 +3,9 @@
 module many_motions
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use engine, only: ending_t, motion_state_t, request_t
+   use film_law, only: overflow_load
    use film_state, only: load_t
-   use flank_contact, only: load_at_rest, overflow_load
+   use flank_contact, only: load_at_rest
    use film_series, only: has_series
    use force, only: largest_oscillation
    use kinds, only: dp

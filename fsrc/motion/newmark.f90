@@ -1,8 +1,8 @@
 !> Motion by Newmark's method (module newmark_step): start, the steps of a period, and the cuts of those that fail.
 module newmark
    use engine, only: motion_count_t, request_t
+   use film_law, only: film_kernel, overflow_load
    use film_state, only: load_t
-   use flank_contact, only: film_kernel, overflow_load
    use force, only: force_at
    use kinds, only: dp, int64
    use newmark_step, only: newmark_state_t, take_step
@@ -21,7 +21,7 @@ module newmark
    !> Evaluations after which a period looks whether it must end
    integer(int64), parameter :: evaluations_between_looks = 65536_int64
 
-   public :: newmark_state_t, start_motion, advance_period
+   public :: start_motion, advance_period
 
 contains
 

@@ -4,7 +4,8 @@ module newmark_engine
    use constants, only: two_pi
    use engine, only: checkpoint_t, ending_t, motion_watcher_t, request_t, sample_sink_t, status_of_stop
    use errors, only: error_t
-   use flank_contact, only: film_kernel, kernel_of_contact
+   use film_law, only: film_kernel
+   use flank_contact, only: kernel_of_contact
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
    use newmark, only: advance_period, start_motion

@@ -10,8 +10,8 @@
 !> It is the paper's method for the paper's rigid teeth; the checker refuses it for elastic ones.
 module newmark_step
    use engine, only: request_t
+   use film_law, only: film_kernel, overflow_load
    use film_state, only: load_t
-   use flank_contact, only: film_kernel, overflow_load
    use kinds, only: dp
    use carried_loads, only: net_load
    use problem, only: problem_t, thinner_film
@@ -20,7 +20,7 @@ module newmark_step
    private
 
    !> A step in which the film loses more than this factor, or goes to zero and below, is cut in two.
-   real(dp), parameter, public :: smallest_film_ratio = 1.0e-3_dp
+   real(dp), parameter :: smallest_film_ratio = 1.0e-3_dp
    !> State of the motion.
    type, public :: newmark_state_t
       !> Film thickness h [m]

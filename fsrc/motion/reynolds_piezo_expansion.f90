@@ -19,7 +19,7 @@ module reynolds_piezo_expansion
    !> Highest power of time in the series of sigma: that of the series of the motion less one
    integer, parameter, public :: highest_time_power = 11
    !> Terms of the load: ascending powers of A, for each power of sigma from its first term on.
-   integer, parameter, public :: load_terms = sum(highest_group_power + 1)
+   integer, parameter :: load_terms = sum(highest_group_power + 1)
    integer, parameter :: earlier(0:highest_sigma_power, 0:highest_sigma_power) = reshape( &
                          [((merge(1, 0, k < i), i=0, highest_sigma_power), k=0, highest_sigma_power)], &
                          [highest_sigma_power + 1, highest_sigma_power + 1])

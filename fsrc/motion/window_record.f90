@@ -6,6 +6,7 @@
 module window_record
    use constants, only: two_pi
    use engine, only: motion_state_t
+   use flank_contact, only: is_elastic
    use force, only: forces_on_circle
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
@@ -13,7 +14,7 @@ module window_record
    use node_extremes, only: block_nodes, block_pieces, extreme_t, find_extremes, seen_acceleration, seen_films, seen_loads, &
       seen_net_load, seen_position, seen_pressure, seen_quantities, seen_velocity
    use carried_loads, only: contact_films, contact_loads, gear_positions, largest_pressures
-   use problem, only: contact_count, has_own_position, most_contacts, of_velocity, problem_t, static_load
+   use problem, only: contact_count, most_contacts, of_velocity, problem_t, static_load
    use step_nodes, only: node_place, node_weight, nodes_per_piece, step_nodes_t
    implicit none(type, external)
    private
@@ -165,7 +166,7 @@ contains
          loads(:n) = loads(:n) - carried(:n, contact)
       end do
       if (contact_count(problem) > 1) call search(seen_net_load, loads(:n), record)
-      if (has_own_position(problem)) call search(seen_position, gear_positions(problem, states), record)
+      if (is_elastic(problem%contact)) call search(seen_position, gear_positions(problem, states), record)
       call forces_on_circle(problem%force, cosine(:n), sine(:n), forces(:n))
       !$omp simd
       do i = 1, n

@@ -6,8 +6,7 @@
 !> What is followed is a family of maps, one for each place of the key in its range, a share from 0 to 1.
 module motion_branch
    use kinds, only: dp
-   use linear_equations, only: solve_linear
-   use matrix_values, only: eigenvalues
+   use linear_equations, only: eigenvalues, solve_linear
    implicit none(type, external)
    private
 

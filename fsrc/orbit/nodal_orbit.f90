@@ -10,9 +10,8 @@ module nodal_orbit
    use constants, only: two_pi
    use engine, only: ending_t
    use kinds, only: dp
-   use linear_equations, only: solve_linear
+   use linear_equations, only: eigenvalues, solve_linear
    use lyapunov, only: draws_near, followed_periods, parting_of, parting_t, stretch_periods, turning_periods
-   use matrix_values, only: eigenvalues
    use nodal_flank, only: nodal_contact_t
    use nodal_film, only: smallest_film
    use nodal_state, only: unpack_motion

@@ -7,9 +7,8 @@ module periodic_orbit
    use engine, only: ending_t, motion_state_t, request_t
    use kinds, only: dp
    use many_motions, only: has_tangents, solve_motions
-   use matrix_values, only: eigenvalues
    use carried_loads, only: counts_as, sizes_of_state, thinnest_film
-   use linear_equations, only: solve_linear
+   use linear_equations, only: eigenvalues, solve_linear
    use problem, only: problem_t
    use scene_status, only: status_complete
    implicit none(type, external)

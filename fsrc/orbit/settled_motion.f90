@@ -10,7 +10,7 @@ module settled_motion
    !> Share of the gap by which films, and of the characteristic velocity by which velocities of one motion may differ [-].
    real(dp), parameter, public :: same_state = 0.01_dp
    !> Relative difference of the acceleration rms up to which motions are the same, and where one of a part of a period is compared [-].
-   real(dp), parameter, public :: same_rms = 0.05_dp, rough_rms = 0.25_dp
+   real(dp), parameter :: same_rms = 0.05_dp, rough_rms = 0.25_dp
 
    !> A motion that repeats.
    type, public :: settled_motion_t

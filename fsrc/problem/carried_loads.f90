@@ -3,17 +3,15 @@
 module carried_loads
    use constants, only: two_pi
    use elastohydrodynamic_closure, only: closure_pressure
-   use film_law, only: film_kernel, film_load, film_over_gap, width_compression
+   use film_law, only: film_kernel, film_load, film_over_gap, overflow_load, width_compression
    use film_pressure, only: exact_pressure, exact_pressures
    use film_state, only: load_t, state_number_t
-   use flank_contact, only: carries_positive_loads, inner_at_rest, load_at_rest, loads_of_contact, of_gap, of_pressure, &
-      of_smallest_film, overflow_load, &
-      velocity_under
+   use flank_contact, only: carries_positive_loads, loads_of_contact, of_gap, of_pressure, of_smallest_film, velocity_under
    use force, only: force_at, force_of_period, largest_oscillation
    use kinds, only: dp
    use problem, only: coast_flank, compression_count, contact_count, drive_flank, has_elastic_teeth, has_inner_numbers, &
-      has_two_flanks, inner_places, of_coast_compression, of_drive_compression, of_film, of_velocity, problem_t, &
-      state_numbers, state_size, static_load
+      has_two_flanks, inner_places, of_coast_compression, of_drive_compression, of_film, of_velocity, problem_t, state_numbers, &
+      static_load
    use scene_types, only: least_static_load
    implicit none(type, external)
    private

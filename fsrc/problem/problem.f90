@@ -57,11 +57,10 @@ module problem
       real(dp) :: rate = huge(1.0_dp)
    end type settling_t
 
-   public :: problem_of, has_two_flanks, has_elastic_teeth, has_own_position, has_inner_numbers, same_kind, contact_count, &
-             compression_count, moving_numbers, state_size, state_numbers, state_number_t, inner_places, static_load, &
-             largest_applied_force, force_to_resolve, closing_velocity, film_at_rest, films_at_rest, films_near_rest, rigid_films, &
-             film_unit, thinner_in_units, acceleration_by_lengths, loads_at_rest, reference_films, reference_film, thinner_film, &
-             linearise, settling_of
+   public :: problem_of, has_two_flanks, has_elastic_teeth, has_inner_numbers, same_kind, contact_count, compression_count, &
+             moving_numbers, state_size, state_numbers, inner_places, static_load, largest_applied_force, force_to_resolve, &
+             closing_velocity, film_at_rest, films_at_rest, films_near_rest, rigid_films, film_unit, thinner_in_units, &
+             acceleration_by_lengths, loads_at_rest, reference_films, reference_film, thinner_film, linearise, settling_of
 
 contains
 
@@ -108,13 +107,6 @@ contains
 
       has_elastic_teeth = is_elastic(problem%contact)
    end function has_elastic_teeth
-
-   !> Whether the gear has a position of its own, which no film tells: not with rigid teeth.
-   elemental logical function has_own_position(problem)
-      type(problem_t), intent(in) :: problem
-
-      has_own_position = has_elastic_teeth(problem)
-   end function has_own_position
 
    !> Whether motions of two problems go by the same equations: films of one law, flanks and numbers alike.
    elemental logical function same_kind(problem, other)

@@ -1,8 +1,8 @@
 !> The state in which a motion starts, and what contacts keep of one while keys of its problem change.
 module starting_state
-   use film_law, only: width_compression
+   use film_law, only: overflow_load, width_compression
    use film_state, only: load_t
-   use flank_contact, only: inner_at_rest, load_at_rest, overflow_load
+   use flank_contact, only: inner_at_rest, load_at_rest
    use kinds, only: dp
    use problem, only: compression_count, contact_count, has_elastic_teeth, has_inner_numbers, has_two_flanks, inner_places, &
       of_drive_compression, of_film, of_velocity, problem_t, state_size

@@ -300,7 +300,7 @@ contains
       do i = 1, size(scenes)
          if (scenes(i)%task == task_film .or. scenes(i)%solver%method /= method_newmark) cycle
          if (inner_count(contact_of(scenes(i))) == 0) cycle
-         call faults%add(scenes(i)%source, scenes(i)%lines(find_key('solver', 'method')), 'solver', 'method', &
+         call faults%add(scenes(i)%source, scenes(i)%lines(find_key('solver.method')), 'solver', 'method', &
                          'the paper''s method cannot follow a film with a state of its own; take taylor')
       end do
    end subroutine check_methods
@@ -314,7 +314,7 @@ contains
 
       do i = 1, size(scenes)
          call expect_scene_memory(scenes(i), error)
-         if (allocated(error)) call faults%add_error(scenes(i)%source, 0, '', '', error)
+         if (allocated(error)) call faults%add_error(scenes(i)%source, '', '', error)
       end do
    end subroutine check_memory
 

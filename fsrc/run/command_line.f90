@@ -52,122 +52,131 @@ contains
             call faults%add("''", 0, '', '', 'the name of an input file is empty')
          else if (options_over .or. argument == '-' .or. argument(1:1) /= '-') then
             command%files = [command%files, word_t(argument)]
+         else if (argument == '--') then
+            options_over = .true.
          else
-            select case (argument)
-            case ('--')
-               options_over = .true.
-            case ('--check')
-               command%check = .true.
-            case ('--quiet')
-               command%quiet = .true.
-            case ('--version')
-               command%version = .true.
-            case ('--help', '-h')
-               command%help = .true.
-            case ('--keys')
-               command%page = .true.
-            case ('--quantities')
-               command%quantities = .true.
-            case ('--resume')
-               command%resume = .true.
-               ! What is carried on is replaced by what it becomes.
-               call add_override('output.overwrite=.true.', argument)
-            case ('--threads')
-               if (value_follows()) call read_threads()
-            case ('--overwrite')
-               call add_override('output.overwrite=.true.', argument)
-            case ('--template')
-               command%template = .true.
-               if (i < command_argument_count()) then
-                  i = i + 1
-                  command%template_name = lower(argument_text(i))
-               end if
-            case ('--set')
-               if (value_follows()) then
-                  if (index(argument_text(i), '@') == 1) then
-                     call add_settings(argument_text(i))
-                  else
-                     call add_override(argument_text(i), argument//' '//argument_text(i))
-                  end if
-               end if
-            case ('--output')
-               if (value_follows()) call add_override('output.directory='//quoted(argument_text(i)), &
-                                                      argument//' '//argument_text(i))
-            case default
-               call faults%add(argument, 0, '', '', 'unknown option; rattle --help lists all')
-            end select
+            call read_option(argument, i, command, faults)
          end if
       end do
-
-   contains
-
-      !> Step on to the value of an option.
-      logical function value_follows()
-         value_follows = i < command_argument_count()
-         if (value_follows) then
-            i = i + 1
-         else
-            call faults%add(argument, 0, '', '', 'a value must follow this option')
-         end if
-      end function value_follows
-
-      !> A positive number of threads.
-      subroutine read_threads()
-         character(:), allocatable :: text
-         integer :: stat
-
-         text = argument_text(i)
-         stat = merge(0, 1, verify(text, '0123456789') == 0 .and. len(text) > 0 .and. len(text) < 6)
-         if (stat == 0) read (text, *, iostat=stat) command%threads
-         if (stat /= 0 .or. command%threads < 1) then
-            call faults%add(argument//' '//text, 0, '', '', 'a positive number of threads is needed')
-         else if (command%threads > most_threads()) then
-            call faults%add(argument//' '//text, 0, '', '', 'at most '//integer_text(most_threads())// &
-                            ' threads are allowed on this machine')
-         end if
-      end subroutine read_threads
-
-      !> Settings of a file, one in each line: lists may be longer than an argument.
-      subroutine add_settings(given)
-         !> The path behind a '@'
-         character(*), intent(in) :: given
-         character(:), allocatable :: content, line
-         integer :: stat, first, length
-
-         call read_whole_file(given(2:), most_bytes, content, stat)
-         if (stat /= 0) then
-            call faults%add('--set '//given, 0, '', '', trim(merge('it cannot be read                ', &
-                                                                   'it is longer than settings can be', stat < 3)))
-            return
-         end if
-         first = 1
-         do while (first <= len(content))
-            length = index(content(first:), new_line('a')) - 1
-            if (length < 0) length = len(content) - first + 1
-            line = content(first:first + length - 1)
-            if (len_trim(line) > 0) call add_override(line, '--set '//shortened(line))
-            first = first + length + 1
-         end do
-      end subroutine add_settings
-
-      !> Turn group.key=value into namelist text.
-      subroutine add_override(setting, source)
-         character(*), intent(in) :: setting
-         character(*), intent(in) :: source
-         integer :: dot, equals
-
-         equals = index(setting, '=')
-         dot = index(setting(:max(equals, 1)), '.')
-         if (equals < 4 .or. dot < 2 .or. dot > equals - 2) then
-            call faults%add(source, 0, '', '', 'write it as group.key=value')
-            return
-         end if
-         command%overrides = [command%overrides, override_t(source, '&'//setting(:dot - 1)//' '// &
-                                                            setting(dot + 1:equals)//value_of(setting(:dot - 1), &
-                                                            setting(dot + 1:equals - 1), setting(equals + 1:))//new_line('a')//'/')]
-      end subroutine add_override
-
    end subroutine read_arguments
+
+   !> Read one option, and the value that follows it.
+   subroutine read_option(option, place, command, faults)
+      character(*), intent(in) :: option
+      !> Its place among the arguments; out: that of its value, where it has one
+      integer, intent(inout) :: place
+      type(command_t), intent(inout) :: command
+      type(fault_list_t), intent(inout) :: faults
+      character(:), allocatable :: value
+
+      value = ''
+      if (any(option == [character(9) :: '--threads', '--set', '--output'])) then
+         if (place == command_argument_count()) then
+            call faults%add(option, 0, '', '', 'a value must follow this option')
+            return
+         end if
+         place = place + 1
+         value = argument_text(place)
+      end if
+      select case (option)
+      case ('--check')
+         command%check = .true.
+      case ('--quiet')
+         command%quiet = .true.
+      case ('--version')
+         command%version = .true.
+      case ('--help', '-h')
+         command%help = .true.
+      case ('--keys')
+         command%page = .true.
+      case ('--quantities')
+         command%quantities = .true.
+      case ('--resume')
+         command%resume = .true.
+         ! What is carried on is replaced by what it becomes.
+         call add_override('output.overwrite=.true.', option, command, faults)
+      case ('--threads')
+         call read_threads(value, command%threads, faults)
+      case ('--overwrite')
+         call add_override('output.overwrite=.true.', option, command, faults)
+      case ('--template')
+         command%template = .true.
+         if (place < command_argument_count()) then
+            place = place + 1
+            command%template_name = lower(argument_text(place))
+         end if
+      case ('--set')
+         if (index(value, '@') == 1) then
+            call add_settings(value(2:), command, faults)
+         else
+            call add_override(value, option//' '//value, command, faults)
+         end if
+      case ('--output')
+         call add_override('output.directory='//quoted(value), option//' '//value, command, faults)
+      case default
+         call faults%add(option, 0, '', '', 'unknown option; rattle --help lists all')
+      end select
+   end subroutine read_option
+
+   !> A positive number of threads.
+   subroutine read_threads(text, threads, faults)
+      character(*), intent(in) :: text
+      integer, intent(inout) :: threads
+      type(fault_list_t), intent(inout) :: faults
+      integer :: stat
+
+      stat = merge(0, 1, verify(text, '0123456789') == 0 .and. len(text) > 0 .and. len(text) < 6)
+      if (stat == 0) read (text, *, iostat=stat) threads
+      if (stat /= 0 .or. threads < 1) then
+         call faults%add('--threads '//text, 0, '', '', 'a positive number of threads is needed')
+      else if (threads > most_threads()) then
+         call faults%add('--threads '//text, 0, '', '', 'at most '//integer_text(most_threads())// &
+                         ' threads are allowed on this machine')
+      end if
+   end subroutine read_threads
+
+   !> Settings of a file, one in each line: lists may be longer than an argument.
+   subroutine add_settings(path, command, faults)
+      character(*), intent(in) :: path
+      type(command_t), intent(inout) :: command
+      type(fault_list_t), intent(inout) :: faults
+      character(:), allocatable :: content, line
+      integer :: stat, first, length
+
+      call read_whole_file(path, most_bytes, content, stat)
+      if (stat /= 0) then
+         call faults%add('--set @'//path, 0, '', '', trim(merge('it cannot be read                ', &
+                                                                'it is longer than settings can be', stat < 3)))
+         return
+      end if
+      first = 1
+      do while (first <= len(content))
+         length = index(content(first:), new_line('a')) - 1
+         if (length < 0) length = len(content) - first + 1
+         line = content(first:first + length - 1)
+         if (len_trim(line) > 0) call add_override(line, '--set '//shortened(line), command, faults)
+         first = first + length + 1
+      end do
+   end subroutine add_settings
+
+   !> Turn group.key=value into namelist text.
+   subroutine add_override(setting, source, command, faults)
+      character(*), intent(in) :: setting
+      !> As faults name it
+      character(*), intent(in) :: source
+      type(command_t), intent(inout) :: command
+      type(fault_list_t), intent(inout) :: faults
+      integer :: dot, equals
+
+      equals = index(setting, '=')
+      dot = index(setting(:max(equals, 1)), '.')
+      if (equals < 4 .or. dot < 2 .or. dot > equals - 2) then
+         call faults%add(source, 0, '', '', 'write it as group.key=value')
+         return
+      end if
+      command%overrides = [command%overrides, override_t(source, '&'//setting(:dot - 1)//' '//setting(dot + 1:equals)// &
+                                                         value_of(setting(:equals - 1), setting(equals + 1:))//new_line('a')//'/')]
+   end subroutine add_override
 
    !> A setting as it is told in faults: nobody reads thousands of numbers.
    pure function shortened(setting) result(told)
@@ -187,16 +196,16 @@ contains
    end function most_threads
 
    !> Value of an override; quotes around a text may be left out, the shell has eaten them.
-   pure function value_of(group, key, given) result(value)
-      character(*), intent(in) :: group
-      character(*), intent(in) :: key
+   pure function value_of(name, given) result(value)
+      !> As group.key
+      character(*), intent(in) :: name
       character(*), intent(in) :: given
       character(:), allocatable :: value
       integer :: position
 
       value = given
       ! An element of a list is a value like the list itself: vary(1) takes what vary takes.
-      position = find_key(lower(group), lower(key(:scan(key//'(', '(') - 1)))
+      position = find_key(lower(name(:scan(name//'(', '(') - 1)))
       if (position == 0 .or. len(given) == 0) return
       if (scan(given(1:1), '''"') > 0) return
       if (keys(position)%kind == text_kind) value = quoted(given)

@@ -3,10 +3,11 @@ module motions_table
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use coexisting_motions, only: told_motion_t
    use errors, only: error_t
+   use film_state, only: state_number_t
    use judged_scene, only: judged_scene_t
    use kinds, only: dp, int64
    use output_place, only: motions_path
-   use problem, only: problem_of, state_number_t, state_numbers
+   use problem, only: problem_of, state_numbers
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_writer, only: result_writer_t
    use scene_types, only: scene_t

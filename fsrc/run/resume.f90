@@ -9,10 +9,11 @@ module resume
    use earlier_files, only: begin_anew, check_earlier_result, check_lone_summary, open_earlier
    use errors, only: error_t, exit_bad_input, raise
    use file_system, only: file_state_t, state_of_path
+   use film_state, only: state_number_t
    use kinds, only: dp, int64
    use output_place, only: motions_path, profiles_path, result_path, state_path
    use nodal_state, only: size_of_motion
-   use problem, only: problem_of, state_number_t, state_numbers
+   use problem, only: problem_of, state_numbers
    use repetition, only: kept_states, orbit_watch_t
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t

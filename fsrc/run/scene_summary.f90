@@ -11,7 +11,7 @@ module scene_summary
    use quantities, only: a_code, a_count, a_flag, a_list, part_class, part_cost, part_errors, part_spectrum, part_orbit, &
       part_regime, part_scene, part_window, quantity_code, quantity_film_regime, quantity_harmonics, quantity_law_contradicted, &
       quantity_orbit_period, quantity_t, quantity_table, quantity_word
-   use result_checksum, only: checksum_of_new_result
+   use result_reader, only: checksum_of_new_result
    use scene_report, only: acceleration_words, speed_meaning, verdict_sentence
    use scene_status, only: is_success, status_name, status_no_rigid_film, status_not_written, status_sentence
    use scene_types, only: scene_t, task_film
@@ -56,8 +56,8 @@ contains
       do i = 1, merge(0, size(profiles), judged%status == status_not_written)
          call summary%add('profiles_checksum', checksum_of_new_result(profiles(i)%text))
       end do
-      call summary%add('law', choice_word('film', 'law', scene%film%law))
-      call summary%add('model', choice_word('film', 'model', scene%film%model))
+      call summary%add('law', choice_word('film.law', scene%film%law))
+      call summary%add('model', choice_word('film.model', scene%film%model))
       if (scene%film%told /= '') call summary%add('model_text', trim(scene%film%told))
       call summary%add('speed_used', judged%resolved%problem%contact%film%speed)
       call summary%add('speed_meaning', speed_meaning(scene))

@@ -1,7 +1,6 @@
 !> Value of one key: taken from an assignment as the key asks, or refused with a fault; and its text.
 module input_entry
    use errors, only: fault_list_t
-   use former_names, only: present_word
    use input_key, only: allowed_text, in_range, integer_kind, is_list, key_t, list_kind, logical_kind, path_limit, &
                         real_kind, reals_kind, table_kind, text_kind
    use kinds, only: dp
@@ -33,8 +32,6 @@ module input_entry
       character(:), allocatable :: word
       !> Blank-separated words of a list
       character(:), allocatable :: words
-      !> Former name by which the key was set, or former name of a key or quantity that it was set to; empty: none
-      character(:), allocatable :: former
       !> Numbers of a list
       real(dp), allocatable :: numbers(:)
       !> Columns of a table
@@ -59,7 +56,6 @@ contains
       entry%file = file
       entry%word = ''
       entry%words = ''
-      entry%former = ''
       allocate (entry%numbers(0), entry%columns(0))
       entry%present = key%default /= '' .and. key%default /= 'required'
       if (.not. entry%present) return
@@ -98,7 +94,6 @@ contains
       entry%given = .true.
       entry%file = file
       entry%line = assignment%line
-      entry%former = ''
       entry%faulty = .not. assignment%sound
       if (entry%faulty) return
       if (key%kind == table_kind .and. .not. assignment%whole_column) then
@@ -267,8 +262,6 @@ contains
          word = value%text
          ! Every later question compares whole words: a blank behind one must not make it another.
          if (key%choices /= '') word = trim(word)
-         if (names_keys(key)) word = present_word(word)
-         if (word /= value%text) entry%former = value%text
          if (sound .and. key%choices /= '') sound = word_position(trim(key%choices), word) > 0
          if (sound .and. key%kind == text_kind) entry%word = word
          if (sound .and. key%kind == list_kind) entry%words = trim(adjustl(entry%words//' '//word))
@@ -276,22 +269,13 @@ contains
       if (sound) return
       entry%faulty = .true.
       allowed = allowed_text(key)
-      if (key%kind == text_kind .and. key%choices == '') &
-         allowed = allowed//' of at most '//integer_text(path_limit)//' characters'
+      if (key%kind == text_kind .and. key%choices == '') allowed = allowed//' of at most '//integer_text(path_limit)//' characters'
       if (key%kind == text_kind .and. key%choices /= '' .and. key%default /= '') &
          allowed = allowed//"; without this key: '"//trim(key%default)//"'"
       if (any(key%kind == [real_kind, reals_kind]) .and. .not. value%quoted) allowed = allowed//meant_behind(key, entry%number)
       call faults%add(entry%file, entry%line, trim(key%group), trim(key%name), &
                       shown(value)//' is not allowed; allowed: '//allowed)
    end subroutine read_value
-
-   !> Whether the words of a key are names of keys or quantities.
-   pure logical function names_keys(key)
-      type(key_t), intent(in) :: key
-
-      names_keys = any(key%group == ['campaign ', 'threshold']) .and. &
-                   any(key%name == ['vary     ', 'record   ', 'key      ', 'criterion'])
-   end function names_keys
 
    !> Value as it stands in the input, shortened for a sentence.
    pure function shown(value) result(words)

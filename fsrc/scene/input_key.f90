@@ -41,10 +41,10 @@ module input_key
       character(240) :: sentence
       !> Value in the template where there is no default
       character(24) :: example = ''
-      !> Numbers that an engineer may mean, wide; others are taken, with a warning
-      type(range_t) :: sensible = range_t()
-      !> Numbers that a film and its motion can be computed with, wider still; others are refused
-      type(range_t) :: computable = range_t()
+      !> Least and largest number that an engineer may mean, wide; others are taken, with a warning
+      real(dp) :: sensible(2) = [-huge(1.0_dp), huge(1.0_dp)]
+      !> Least and largest number that a film and its motion can be computed with, wider still; others are refused
+      real(dp) :: computable(2) = [-huge(1.0_dp), huge(1.0_dp)]
       !> Group that gives this key where it stands; empty: none does
       character(8) :: given_by = ''
       !> Default where &gear stands, if it is another
@@ -75,7 +75,7 @@ contains
       !> Finite number
       real(dp), intent(in) :: number
 
-      is_sensible = (number >= key%sensible%lower .and. number <= key%sensible%upper) .or. .not. abs(number) > 0.0_dp
+      is_sensible = (number >= key%sensible(1) .and. number <= key%sensible(2)) .or. .not. abs(number) > 0.0_dp
    end function is_sensible
 
    !> Whether a film and its motion can be computed with this number.
@@ -84,7 +84,7 @@ contains
       !> Finite number
       real(dp), intent(in) :: number
 
-      is_computable = number >= key%computable%lower .and. number <= key%computable%upper
+      is_computable = number >= key%computable(1) .and. number <= key%computable(2)
    end function is_computable
 
    !> Why a number is refused that a key allows.
@@ -96,7 +96,7 @@ contains
       character(:), allocatable :: words
 
       words = real_text(number)//' '//trim(key%unit)//' leads to numbers too large or too small to be computed with; '// &
-              'possible: '//real_text(key%computable%lower)//' to '//real_text(key%computable%upper)//' '//trim(key%unit)
+              'possible: '//real_text(key%computable(1))//' to '//real_text(key%computable(2))//' '//trim(key%unit)
       if (key%unit == '-') words = words(:len(words) - 2)
    end function not_computable_text
 
@@ -106,8 +106,8 @@ contains
       character(:), allocatable :: words
 
       words = ''
-      if (key%sensible%upper < huge(1.0_dp)) &
-         words = real_text(key%sensible%lower)//' to '//real_text(key%sensible%upper)//' '//trim(key%unit)
+      if (key%sensible(2) < huge(1.0_dp)) &
+         words = real_text(key%sensible(1))//' to '//real_text(key%sensible(2))//' '//trim(key%unit)
    end function sensible_text
 
    !> Whether a key holds several values.

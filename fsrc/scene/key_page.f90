@@ -73,8 +73,7 @@ contains
             last = last + 1
          end do
          text = text//'## &'//trim(keys(first)%group)//end_of_line//end_of_line
-         if (any([(len(tasks_of(keys(i))) == 0, i=first, last)])) &
-            call add_table(text, keys(first:last), '', is_told(first:last))
+         if (any([(len(tasks_of(keys(i))) == 0, i=first, last)])) call add_table(text, keys(first:last), '', is_told(first:last))
          do i = first, last
             if (.not. is_told(i)) call add_table(text, keys(first:last), tasks_of(keys(i)), is_told(first:last))
          end do
@@ -117,15 +116,13 @@ contains
       type(key_t), intent(in) :: key
       character(:), allocatable :: tasks
       character(:), allocatable :: decider
-      integer :: dot
 
       tasks = key%used_when(:index(trim(key%used_when)//' & ', ' & ') - 1)
       if (index(tasks, by_task) == 1) then
          tasks = tasks(len(by_task) + 1:)
       else if (len(tasks) > 0 .and. index(tasks, ' ') == 0) then
          decider = tasks(:scan(tasks//'=', '=|') - 1)
-         dot = index(decider, '.')
-         tasks = tasks_of(keys(find_key(decider(:dot - 1), decider(dot + 1:))))
+         tasks = tasks_of(keys(find_key(decider)))
       else
          tasks = ''
       end if

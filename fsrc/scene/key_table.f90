@@ -18,28 +18,28 @@ module key_table
    type(range_t), parameter :: at_least_8 = range_t(8.0_dp, .false., 1.0e7_dp, .false.)
    ! Numbers of machines, with a margin of a thousand or more on both sides. Within these the powers and products of them that
    ! the film and its motion need stay in the range of the reals; beyond, a scene would tell of overflow at best.
-   type(range_t), parameter :: a_length = range_t(1.0e-10_dp, .false., 1.0e7_dp, .false.)
-   type(range_t), parameter :: a_modulus = range_t(1.0_dp, .false., 1.0e30_dp, .false.)
-   type(range_t), parameter :: a_viscosity = range_t(1.0e-10_dp, .false., 1.0e7_dp, .false.)
-   type(range_t), parameter :: a_pressure_viscosity = range_t(1.0e-30_dp, .false., 0.1_dp, .false.)
-   type(range_t), parameter :: a_speed = range_t(1.0e-9_dp, .false., 1.0e6_dp, .false.)
-   type(range_t), parameter :: a_signed_speed = range_t(-1.0e6_dp, .false., 1.0e6_dp, .false.)
-   type(range_t), parameter :: a_mass = range_t(1.0e-10_dp, .false., 1.0e9_dp, .false.)
-   type(range_t), parameter :: a_signed_force = range_t(-1.0e12_dp, .false., 1.0e12_dp, .false.)
-   type(range_t), parameter :: an_amplitude = range_t(0.0_dp, .false., 1.0e12_dp, .false.)
+   real(dp), parameter :: a_length(2) = [1.0e-10_dp, 1.0e7_dp]
+   real(dp), parameter :: a_modulus(2) = [1.0_dp, 1.0e30_dp]
+   real(dp), parameter :: a_viscosity(2) = [1.0e-10_dp, 1.0e7_dp]
+   real(dp), parameter :: a_pressure_viscosity(2) = [1.0e-30_dp, 0.1_dp]
+   real(dp), parameter :: a_speed(2) = [1.0e-9_dp, 1.0e6_dp]
+   real(dp), parameter :: a_signed_speed(2) = [-1.0e6_dp, 1.0e6_dp]
+   real(dp), parameter :: a_mass(2) = [1.0e-10_dp, 1.0e9_dp]
+   real(dp), parameter :: a_signed_force(2) = [-1.0e12_dp, 1.0e12_dp]
+   real(dp), parameter :: an_amplitude(2) = [0.0_dp, 1.0e12_dp]
    type(range_t), parameter :: an_order = range_t(1.0_dp, .false., real(highest_order, dp), .false.)
-   type(range_t), parameter :: a_phase = range_t(-1.0e6_dp, .false., 1.0e6_dp, .false.)
-   type(range_t), parameter :: a_scale = range_t(0.0_dp, .false., 1.0e6_dp, .false.)
-   type(range_t), parameter :: a_frequency = range_t(1.0e-7_dp, .false., 1.0e11_dp, .false.)
-   type(range_t), parameter :: a_fall = range_t(0.0_dp, .false., 1.0e8_dp, .false.)
-   type(range_t), parameter :: a_film = range_t(1.0e-16_dp, .false., 1.0e4_dp, .false.)
-   type(range_t), parameter :: a_play = range_t(1.0e-9_dp, .false., 1.0e4_dp, .false.)
+   real(dp), parameter :: a_phase(2) = [-1.0e6_dp, 1.0e6_dp]
+   real(dp), parameter :: a_scale(2) = [0.0_dp, 1.0e6_dp]
+   real(dp), parameter :: a_frequency(2) = [1.0e-7_dp, 1.0e11_dp]
+   real(dp), parameter :: a_fall(2) = [0.0_dp, 1.0e8_dp]
+   real(dp), parameter :: a_film(2) = [1.0e-16_dp, 1.0e4_dp]
+   real(dp), parameter :: a_play(2) = [1.0e-9_dp, 1.0e4_dp]
    type(range_t), parameter :: a_tooth_count = range_t(2.0_dp, .false., 1.0e4_dp, .false.)
    type(range_t), parameter :: a_data_viscosity = range_t(0.31_dp, .false., 1.0e6_dp, .false.)
-   type(range_t), parameter :: a_stiffness = range_t(1.0_dp, .false., 1.0e20_dp, .false.)
-   type(range_t), parameter :: a_film_ratio = range_t(1.0e-20_dp, .false., 1.0e10_dp, .false.)
-   type(range_t), parameter :: a_squeeze_ratio = range_t(-1.0e20_dp, .false., 1.0e20_dp, .false.)
-   type(range_t), parameter :: a_speed_group = range_t(1.0e-30_dp, .false., 1.0e10_dp, .false.)
+   real(dp), parameter :: a_stiffness(2) = [1.0_dp, 1.0e20_dp]
+   real(dp), parameter :: a_film_ratio(2) = [1.0e-20_dp, 1.0e10_dp]
+   real(dp), parameter :: a_squeeze_ratio(2) = [-1.0e20_dp, 1.0e20_dp]
+   real(dp), parameter :: a_speed_group(2) = [1.0e-30_dp, 1.0e10_dp]
    type(range_t), parameter :: fraction = range_t(0.0_dp, .true., 1.0_dp, .false.)
 
    ! Keys of the one of three ways in which the drag of a loose gear is known
@@ -57,101 +57,68 @@ module key_table
             'What is computed: motion, of film and tooth; film, the oil film at given points; sweep, steady motions along a '// &
             'key, each from the one before; campaign, many motions that differ in some keys; threshold, where they change.'), &
       key_t('contact', 'radius', real_kind, 'm', '', positive, '', '', &
-            'Equivalent radius R of the contact; give either this or both radius_1 and radius_2.', &
-            example='0.0127', &
-            sensible=range_t(lower=1.0e-4_dp, upper=1.0_dp), &
-            computable=a_length, given_by='gear'), &
+            'Equivalent radius R of the contact; give either this or both radius_1 and radius_2.', example='0.0127', &
+            sensible=[1.0e-4_dp, 1.0_dp], computable=a_length, given_by='gear'), &
       key_t('contact', 'radius_1', real_kind, 'm', '', positive, '', '', &
-            'Radius of the first tooth flank; 1/R = 1/radius_1 + 1/radius_2 (2).', &
-            sensible=range_t(lower=1.0e-4_dp, upper=10.0_dp), &
+            'Radius of the first tooth flank; 1/R = 1/radius_1 + 1/radius_2 (2).', sensible=[1.0e-4_dp, 10.0_dp], &
             computable=a_length, given_by='gear'), &
       key_t('contact', 'radius_2', real_kind, 'm', '', positive, '', '', &
-            'Radius of the second tooth flank.', &
-            sensible=range_t(lower=1.0e-4_dp, upper=10.0_dp), &
-            computable=a_length, given_by='gear'), &
+            'Radius of the second tooth flank.', sensible=[1.0e-4_dp, 10.0_dp], computable=a_length, given_by='gear'), &
       key_t('contact', 'length', real_kind, 'm', 'required', positive, '', '', &
-            'Length l of the line contact.', &
-            example='0.010', &
-            sensible=range_t(lower=1.0e-4_dp, upper=1.0_dp), &
-            computable=a_length, given_by='gear'), &
+            'Length l of the line contact.', example='0.010', sensible=[1.0e-4_dp, 1.0_dp], computable=a_length, given_by='gear'), &
       key_t('contact', 'young_modulus', real_kind, 'Pa', '205.66e9', positive, '', '', &
             'Young''s modulus E of the teeth, for the deflection (4); with the default Poisson ratio E* is 226 GPa.', &
-            sensible=range_t(lower=1.0e8_dp, upper=1.0e12_dp), &
-            computable=a_modulus), &
+            sensible=[1.0e8_dp, 1.0e12_dp], computable=a_modulus), &
       key_t('contact', 'poisson_ratio', real_kind, '-', '0.3', poisson, '', '', &
             'Poisson ratio of the teeth; E* = E/(1 - nu^2) (3).'), &
       key_t('contact', 'backlash', real_kind, 'm', '', positive, '', of_motions, &
             'Backlash, the clearance between drive and coast flank along their normal, the sum of both gaps; absent: the drive '// &
-               'flank alone.', &
-            sensible=range_t(lower=1.0e-6_dp, upper=1.0e-2_dp), &
-            computable=a_play, given_by='gear'), &
+            'flank alone.', sensible=[1.0e-6_dp, 1.0e-2_dp], computable=a_play, given_by='gear'), &
       key_t('contact', 'stiffness', real_kind, 'N/m', '', positive, '', of_motions, &
             'Stiffness of a flank with its tooth, in series with the film of each flank; absent: rigid teeth.', &
-            sensible=range_t(lower=1.0e5_dp, upper=1.0e12_dp), &
-            computable=a_stiffness, given_by='gear'), &
+            sensible=[1.0e5_dp, 1.0e12_dp], computable=a_stiffness, given_by='gear'), &
       key_t('contact', 'flattening_included', logical_kind, '', '.true.', any_number, '', of_motions, &
             'Whether that stiffness, or gear.tooth_stiffness, contains the flattening of the flanks, as that of ISO 6336-1 '// &
             'does; else a plane contact, elastic to the depth R, is compressed beside it.'), &
       key_t('lubricant', 'viscosity', real_kind, 'Pa s', 'required', positive, '', '', &
-            'Dynamic viscosity eta0 at ambient pressure.', &
-            example='0.3', &
-            sensible=range_t(lower=1.0e-4_dp, upper=20.0_dp), &
-            computable=a_viscosity, given_by='oil'), &
+            'Dynamic viscosity eta0 at ambient pressure.', example='0.3', sensible=[1.0e-4_dp, 20.0_dp], computable=a_viscosity, &
+            given_by='oil'), &
       key_t('lubricant', 'pressure_viscosity', real_kind, '1/Pa', 'required', positive, '', '', &
-            'Barus coefficient alpha (29): the piezo-viscous laws and the regime check need it.', &
-            example='2.0e-8', &
-            sensible=range_t(lower=1.0e-10_dp, upper=1.0e-7_dp), &
-            computable=a_pressure_viscosity, given_by='oil'), &
+            'Barus coefficient alpha (29): the piezo-viscous laws and the regime check need it.', example='2.0e-8', &
+            sensible=[1.0e-10_dp, 1.0e-7_dp], computable=a_pressure_viscosity, given_by='oil'), &
       key_t('lubricant', 'viscosity_law', text_kind, '', 'barus', any_number, 'constant barus roelands', '', &
             'How viscosity rises with pressure: barus is eta0 exp(alpha q) (29). constant and roelands are for the '// &
-            'elastohydrodynamic law, roelands for a film task with model = numerical, too.', &
-            with_gear='roelands'), &
+            'elastohydrodynamic law, roelands for a film task with model = numerical, too.', with_gear='roelands'), &
       key_t('kinematics', 'entrainment_speed', real_kind, 'm/s', '', positive, '', '', &
             'Entrainment speed U, the mean of the two surface speeds; give this, rolling_speed, or both surface speeds.', &
-            example='1.905', &
-            sensible=range_t(lower=1.0e-3_dp, upper=300.0_dp), &
-            computable=a_speed, given_by='gear'), &
+            example='1.905', sensible=[1.0e-3_dp, 300.0_dp], computable=a_speed, given_by='gear'), &
       key_t('kinematics', 'rolling_speed', real_kind, 'm/s', '', positive, '', '', &
-            'Sum u_r of the two surface speeds, twice the entrainment speed.', &
-            sensible=range_t(lower=2.0e-3_dp, upper=600.0_dp), &
-            computable=a_speed, given_by='gear'), &
+            'Sum u_r of the two surface speeds, twice the entrainment speed.', sensible=[2.0e-3_dp, 600.0_dp], computable=a_speed, &
+            given_by='gear'), &
       key_t('kinematics', 'surface_speed_1', real_kind, 'm/s', '', any_number, '', '', &
-            'Surface speed of the first flank; the sum of both must be positive.', &
-            sensible=range_t(lower=-300.0_dp, upper=300.0_dp), &
+            'Surface speed of the first flank; the sum of both must be positive.', sensible=[-300.0_dp, 300.0_dp], &
             computable=a_signed_speed, given_by='gear'), &
       key_t('kinematics', 'surface_speed_2', real_kind, 'm/s', '', any_number, '', '', &
-            'Surface speed of the second flank.', &
-            sensible=range_t(lower=-300.0_dp, upper=300.0_dp), &
-            computable=a_signed_speed, given_by='gear'), &
+            'Surface speed of the second flank.', sensible=[-300.0_dp, 300.0_dp], computable=a_signed_speed, given_by='gear'), &
       key_t('load', 'mass', real_kind, 'kg', 'required', positive, '', of_motions, &
-            'Equivalent mass m of the impacting tooth pair.', &
-            example='3.0', &
-            sensible=range_t(lower=1.0e-4_dp, upper=1.0e3_dp), &
-            computable=a_mass, given_by='gear'), &
+            'Equivalent mass m of the impacting tooth pair.', example='3.0', sensible=[1.0e-4_dp, 1.0e3_dp], computable=a_mass, &
+            given_by='gear'), &
       key_t('load', 'steady_force', real_kind, 'N', 'required', any_number, '', of_motions, &
-            'Steady force Q of (34); without a backlash Q + m g must be positive.', &
-            example='199.2', &
-            sensible=range_t(lower=-1.0e6_dp, upper=1.0e6_dp), &
-            computable=a_signed_force, given_by='gear'), &
+            'Steady force Q of (34); without a backlash Q + m g must be positive.', example='199.2', &
+            sensible=[-1.0e6_dp, 1.0e6_dp], computable=a_signed_force, given_by='gear'), &
       key_t('load', 'force_amplitude', real_kind, 'N', '', not_negative, '', of_motions, &
-            'Amplitude F0 of the oscillating force of (34); give this, or force_orders with force_amplitudes.', &
-            example='205.7', &
-            sensible=range_t(lower=0.0_dp, upper=1.0e6_dp), &
-            computable=an_amplitude, given_by='shaft'), &
+            'Amplitude F0 of the oscillating force of (34); give this, or force_orders with force_amplitudes.', example='205.7', &
+            sensible=[0.0_dp, 1.0e6_dp], computable=an_amplitude, given_by='shaft'), &
       key_t('load', 'force_orders', reals_kind, '-', '', an_order, '', of_motions, &
             'Harmonics of a force of any shape, whole multiples of the frequency, instead of force_amplitude.', given_by='shaft'), &
       key_t('load', 'force_amplitudes', reals_kind, 'N', '', not_negative, '', of_motions, &
-            'Amplitude of each harmonic.', &
-            sensible=range_t(lower=0.0_dp, upper=1.0e6_dp), &
-            computable=an_amplitude, given_by='shaft'), &
+            'Amplitude of each harmonic.', sensible=[0.0_dp, 1.0e6_dp], computable=an_amplitude, given_by='shaft'), &
       key_t('load', 'force_phases', reals_kind, 'rad', '', any_number, '', of_motions, &
-            'Phase of each harmonic: a cos(2 pi n f t + phase); absent: all 0.', &
-            sensible=range_t(lower=-1.0e3_dp, upper=1.0e3_dp), &
+            'Phase of each harmonic: a cos(2 pi n f t + phase); absent: all 0.', sensible=[-1.0e3_dp, 1.0e3_dp], &
             computable=a_phase, given_by='shaft'), &
       key_t('load', 'force_mean', real_kind, 'N', '', any_number, '', of_motions, &
             'Mean of the force beside steady_force: added to it, and not multiplied by force_scale; absent: 0.', &
-            sensible=range_t(lower=-1.0e6_dp, upper=1.0e6_dp), &
-            computable=a_signed_force), &
+            sensible=[-1.0e6_dp, 1.0e6_dp], computable=a_signed_force), &
       key_t('load', 'signal', text_kind, '', '', any_number, '', of_motions, &
             'CSV file, in the folder of this input, with cycles of the force [N], uniformly sampled; it becomes force_orders '// &
             'and, by its mean, force_mean. A column of time or angle, its unit in its name, must fit frequency.', &
@@ -165,28 +132,20 @@ module key_table
             'Cycles in the file, which are averaged; absent: as many as its axis of time or angle spans, one without it.', &
             given_by='shaft'), &
       key_t('load', 'force_scale', real_kind, '-', '1.0', not_negative, '', of_motions, &
-            'Multiplies all that oscillates of the force.', &
-            sensible=range_t(lower=0.0_dp, upper=1.0e4_dp), &
-            computable=a_scale), &
+            'Multiplies all that oscillates of the force.', sensible=[0.0_dp, 1.0e4_dp], computable=a_scale), &
       key_t('load', 'frequency', real_kind, 'Hz', 'required', positive, '', of_motions, &
-            'Frequency f_exc of the oscillating force.', &
-            example='600.0', &
-            sensible=range_t(lower=0.1_dp, upper=1.0e5_dp), &
-            computable=a_frequency, given_by='shaft'), &
+            'Frequency f_exc of the oscillating force.', example='600.0', sensible=[0.1_dp, 1.0e5_dp], computable=a_frequency, &
+            given_by='shaft'), &
       key_t('load', 'gravity', real_kind, 'm/s2', '9.80665', not_negative, '', of_motions, &
-            'Acceleration of free fall g.', &
-            sensible=range_t(lower=0.0_dp, upper=100.0_dp), &
-            computable=a_fall, given_by='gear'), &
+            'Acceleration of free fall g.', sensible=[0.0_dp, 100.0_dp], computable=a_fall, given_by='gear'), &
       key_t('film', 'law', text_kind, '', 'required', any_number, words_of_laws, of_motions, &
             'Film law of the motion: iso-viscous (35), idle rattle; piezo-viscous (37), creep rattle; elastohydrodynamic, '// &
-            'where pressure bends the flanks.', &
-            example='iso-viscous', with_gear='elastohydrodynamic'), &
+            'where pressure bends the flanks.', example='iso-viscous', with_gear='elastohydrodynamic'), &
       key_t('film', 'model', text_kind, '', 'published', any_number, 'published reynolds numerical closure resolved automatic', &
             '', &
             'published, the paper''s with U as u; reynolds, exact with u = 2U; of the elastohydrodynamic law closure, its '// &
             'default, resolved, in nodes, automatic, either. Film task: absent means the first two, numerical adds finite '// &
-            'volumes.', &
-            with_gear='reynolds'), &
+            'volumes.', with_gear='reynolds'), &
       key_t('film', 'rupture', text_kind, '', 'half-pi', any_number, 'half-pi solved', &
             'film.law=iso-viscous & film.model=published', &
             'Rupture angle x_e in the squeeze term of (24): half-pi as in (35), or solved from (18) at every evaluation.'), &
@@ -196,13 +155,9 @@ module key_table
             'film.model=resolved|automatic', &
             'Nodes of pressure across a contact: 24, 32, 48, 64 or 128.'), &
       key_t('film', 'initial_film', real_kind, 'm', '', positive, '', of_motions, &
-            'Film at t = 0; absent: the steady film under Q + m g.', &
-            sensible=range_t(lower=1.0e-10_dp, upper=1.0e-2_dp), &
-            computable=a_film), &
+            'Film at t = 0; absent: the steady film under Q + m g.', sensible=[1.0e-10_dp, 1.0e-2_dp], computable=a_film), &
       key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', of_motions, &
-            'Film velocity dh/dt at t = 0, negative on approach.', &
-            sensible=range_t(lower=-100.0_dp, upper=100.0_dp), &
-            computable=a_signed_speed) &
+            'Film velocity dh/dt at t = 0, negative on approach.', sensible=[-100.0_dp, 100.0_dp], computable=a_signed_speed) &
       ]
 
    ! What a drawing and a data sheet tell: from it keys of the groups above follow.
@@ -210,142 +165,99 @@ module key_table
       key_t('gear', 'name', text_kind, '', '', any_number, '', of_motions, &
             'Name of the pair, required where several &gear stand: each is solved as a scene NAME.GEAR of its own.'), &
       key_t('gear', 'teeth_1', integer_kind, '-', 'required', a_tooth_count, '', of_motions, &
-            'Teeth of the gear on the shaft, which drives.', &
-            example='11'), &
+            'Teeth of the gear on the shaft, which drives.', example='11'), &
       key_t('gear', 'teeth_2', integer_kind, '-', 'required', a_tooth_count, '', of_motions, &
-            'Teeth of the loose gear.', &
-            example='38'), &
+            'Teeth of the loose gear.', example='38'), &
       key_t('gear', 'normal_module', real_kind, 'm', 'required', positive, '', of_motions, &
-            'Normal module.', &
-            example='2.5e-3', &
-            sensible=range_t(lower=3.0e-4_dp, upper=0.05_dp), &
-            computable=a_length), &
+            'Normal module.', example='2.5e-3', sensible=[3.0e-4_dp, 0.05_dp], computable=a_length), &
       key_t('gear', 'pressure_angle_deg', real_kind, 'deg', '20.0', range_t(1.0_dp, .false., 45.0_dp, .false.), '', of_motions, &
-            'Normal pressure angle.', &
-            sensible=range_t(lower=10.0_dp, upper=30.0_dp)), &
+            'Normal pressure angle.', sensible=[10.0_dp, 30.0_dp]), &
       key_t('gear', 'helix_angle_deg', real_kind, 'deg', '0.0', range_t(-80.0_dp, .false., 80.0_dp, .false.), '', of_motions, &
-            'Helix angle at the reference circle; 0 is a spur gear.', &
-            sensible=range_t(lower=-50.0_dp, upper=50.0_dp)), &
+            'Helix angle at the reference circle; 0 is a spur gear.', sensible=[-50.0_dp, 50.0_dp]), &
       key_t('gear', 'face_width', real_kind, 'm', 'required', positive, '', of_motions, &
-            'Common face width of both gears.', &
-            example='0.016', &
-            sensible=range_t(lower=1.0e-3_dp, upper=0.5_dp), &
-            computable=a_length), &
+            'Common face width of both gears.', example='0.016', sensible=[1.0e-3_dp, 0.5_dp], computable=a_length), &
       key_t('gear', 'centre_distance', real_kind, 'm', '', positive, '', of_motions, &
-            'Distance of the axes; absent: that of a pair without profile shift.', &
-            sensible=range_t(lower=5.0e-3_dp, upper=2.0_dp), &
+            'Distance of the axes; absent: that of a pair without profile shift.', sensible=[5.0e-3_dp, 2.0_dp], &
             computable=a_length), &
       key_t('gear', 'contact_position', real_kind, 'm', '0.0', any_number, '', of_motions, &
             'Place of the contact on the line of action: 0 is the pitch point, positive towards the root of gear 2.', &
-            sensible=range_t(lower=-0.1_dp, upper=0.1_dp)), &
+            sensible=[-0.1_dp, 0.1_dp]), &
       key_t('gear', 'contact_lines', real_kind, '-', '1.0', positive, '', of_motions//' & without gear.tip_diameter_1', &
             'Mean length of all lines of contact over that of one as long as the face is wide: the transverse contact ratio, '// &
-            'which tip_diameter_1 and tip_diameter_2 give.', &
-            sensible=range_t(lower=0.1_dp, upper=10.0_dp), &
-            computable=range_t(1.0e-6_dp, .false., 1.0e6_dp, .false.)), &
+            'which tip_diameter_1 and tip_diameter_2 give.', sensible=[0.1_dp, 10.0_dp], computable=[1.0e-6_dp, 1.0e6_dp]), &
       key_t('gear', 'tip_diameter_1', real_kind, 'm', '', positive, '', of_motions, &
             'Tip diameter of the gear on the shaft. With both, contact_lines is the transverse contact ratio eps_alpha.', &
-            sensible=range_t(lower=5.0e-3_dp, upper=2.0_dp), &
-            computable=a_length), &
+            sensible=[5.0e-3_dp, 2.0_dp], computable=a_length), &
       key_t('gear', 'tip_diameter_2', real_kind, 'm', '', positive, '', of_motions, &
-            'Tip diameter of the loose gear.', &
-            sensible=range_t(lower=5.0e-3_dp, upper=2.0_dp), &
-            computable=a_length), &
+            'Tip diameter of the loose gear.', sensible=[5.0e-3_dp, 2.0_dp], computable=a_length), &
       key_t('gear', 'loose_inertia', real_kind, 'kg m2', 'required', positive, '', of_motions, &
-            'Moment of inertia of the loose gear about its axis.', &
-            example='1.715e-3', &
-            sensible=range_t(lower=1.0e-7_dp, upper=10.0_dp), &
-            computable=range_t(1.0e-15_dp, .false., 1.0e12_dp, .false.)), &
+            'Moment of inertia of the loose gear about its axis.', example='1.715e-3', sensible=[1.0e-7_dp, 10.0_dp], &
+            computable=[1.0e-15_dp, 1.0e12_dp]), &
       key_t('gear', 'drag_torque', real_kind, 'N m', '', any_number, '', &
             of_motions//' & without gear.drag_table & without '//of_computed_drag, &
             'Drag torque on the loose gear, which holds its teeth against the drive flank; without a backlash it is positive. '// &
-            'Give this, drag_table or bearing_mean_diameter.', &
-            example='0.10', &
-            sensible=range_t(lower=-100.0_dp, upper=100.0_dp), &
+            'Give this, drag_table or bearing_mean_diameter.', example='0.10', sensible=[-100.0_dp, 100.0_dp], &
             computable=a_signed_force), &
       key_t('gear', 'drag_table', text_kind, '', '', any_number, '', of_motions//' & without '//of_computed_drag, &
             'CSV file, in the folder of this input, with measured drag torques on a full grid: columns speed_rpm (of gear 1), '// &
             'temperature_celsius, torque [N m]; bilinear, refused outside.'), &
       key_t('gear', 'drag_scale', real_kind, '-', '1.0', positive, '', of_computed_drag//'|gear.drag_table', &
             'Multiplies a computed or tabulated drag: fits it to what was measured, spreads it, is varied.', &
-            sensible=range_t(lower=0.05_dp, upper=20.0_dp), &
-            computable=range_t(1.0e-9_dp, .false., 1.0e9_dp, .false.)), &
+            sensible=[0.05_dp, 20.0_dp], computable=[1.0e-9_dp, 1.0e9_dp]), &
       key_t('gear', 'bearing_mean_diameter', real_kind, 'm', '', positive, '', of_motions, &
             'Mean diameter of the bearing of the loose gear. The drag is then computed from it, synchroniser, churning and &oil.', &
-            sensible=range_t(lower=2.0e-3_dp, upper=1.0_dp), &
-            computable=a_length), &
+            sensible=[2.0e-3_dp, 1.0_dp], computable=a_length), &
       key_t('gear', 'bearing_factor', real_kind, '-', '6.0', positive, '', of_computed_drag//' & without gear.bearing_width', &
             'Factor f_0 of a needle bearing (Palmgren): 6 oil mist, 12 oil bath or grease, 24 jet or vertical.', &
-            sensible=range_t(lower=0.5_dp, upper=50.0_dp), &
-            computable=a_scale), &
+            sensible=[0.5_dp, 50.0_dp], computable=a_scale), &
       key_t('gear', 'bearing_width', real_kind, 'm', '', positive, '', of_computed_drag, &
-            'Width of a plain bearing; with bearing_clearance it stands for the needle bearing.', &
-            sensible=range_t(lower=1.0e-3_dp, upper=0.5_dp), &
+            'Width of a plain bearing; with bearing_clearance it stands for the needle bearing.', sensible=[1.0e-3_dp, 0.5_dp], &
             computable=a_length), &
       key_t('gear', 'bearing_clearance', real_kind, 'm', '', positive, '', of_computed_drag, &
-            'Radial clearance of a plain bearing.', &
-            sensible=range_t(lower=1.0e-6_dp, upper=1.0e-3_dp), &
-            computable=a_play), &
-      key_t('gear', 'synchroniser_cones', integer_kind, '-', '0', range_t(0.0_dp, .false., 3.0_dp, .false.), '', of_computed_drag, &
+            'Radial clearance of a plain bearing.', sensible=[1.0e-6_dp, 1.0e-3_dp], computable=a_play), &
+      key_t('gear', 'synchroniser_cones', integer_kind, '-', '0', range_t(0.0_dp, .false., 3.0_dp, .false.), '', &
+            of_computed_drag, &
             'Gaps of the disengaged synchroniser that shear: 1, 2, 3 of single, double, triple cones; 0: it has none.'), &
       key_t('gear', 'synchroniser_diameter', real_kind, 'm', '', positive, '', of_computed_drag, &
-            'Mean diameter of the cones of the synchroniser; required where there are cones.', &
-            sensible=range_t(lower=5.0e-3_dp, upper=1.0_dp), &
+            'Mean diameter of the cones of the synchroniser; required where there are cones.', sensible=[5.0e-3_dp, 1.0_dp], &
             computable=a_length), &
       key_t('gear', 'synchroniser_width', real_kind, 'm', '', positive, '', of_computed_drag, &
-            'Width of a cone, along it; required where there are cones.', &
-            sensible=range_t(lower=5.0e-4_dp, upper=0.2_dp), &
-            computable=a_length), &
+            'Width of a cone, along it; required where there are cones.', sensible=[5.0e-4_dp, 0.2_dp], computable=a_length), &
       key_t('gear', 'synchroniser_gap', real_kind, 'm', '', positive, '', of_computed_drag, &
-            'Gap of a cone, normal to it, taken as full of oil; required where there are cones.', &
-            sensible=range_t(lower=1.0e-5_dp, upper=5.0e-3_dp), &
+            'Gap of a cone, normal to it, taken as full of oil; required where there are cones.', sensible=[1.0e-5_dp, 5.0e-3_dp], &
             computable=a_play), &
       key_t('gear', 'immersion_depth', real_kind, 'm', '0.0', not_negative, '', of_computed_drag, &
             'Depth of the lowest point of the reference circle below the oil in motion, which is lower than at rest; 0: dry. '// &
-            'At most the reference diameter.', &
-            sensible=range_t(lower=0.0_dp, upper=1.0_dp), &
-            computable=range_t(0.0_dp, .false., 1.0e7_dp, .false.)), &
+            'At most the reference diameter.', sensible=[0.0_dp, 1.0_dp], computable=[0.0_dp, 1.0e7_dp]), &
       key_t('gear', 'own_shaft_ratio', real_kind, '-', '0.0', any_number, '', of_computed_drag, &
             'Speed of the shaft that carries the loose gear over that of gear 1, positive where it turns as the loose gear '// &
-            'does: 0 in neutral at rest, z_1/z_2 of the pair that is engaged.', &
-            sensible=range_t(lower=-10.0_dp, upper=10.0_dp), &
-            computable=range_t(-1.0e6_dp, .false., 1.0e6_dp, .false.)), &
+            'does: 0 in neutral at rest, z_1/z_2 of the pair that is engaged.', sensible=[-10.0_dp, 10.0_dp], &
+            computable=[-1.0e6_dp, 1.0e6_dp]), &
       key_t('gear', 'backlash', real_kind, 'm', '', positive, '', of_motions, &
             'Backlash, the clearance between both flanks along their normal; absent: the drive flank alone.', &
-            sensible=range_t(lower=1.0e-6_dp, upper=1.0e-2_dp), &
-            computable=a_play), &
+            sensible=[1.0e-6_dp, 1.0e-2_dp], computable=a_play), &
       key_t('gear', 'tooth_stiffness', real_kind, 'N/m2', '', not_negative, '', of_motions, &
             'Stiffness of the teeth for each metre of face width, c'' of ISO 6336-1 (1.4e10 for steel); a flank has it times '// &
-            'face_width and contact_lines; 0: rigid.', &
-            sensible=range_t(lower=1.0e7_dp, upper=1.0e12_dp), &
-            computable=range_t(0.0_dp, .false., 1.0e20_dp, .false.), with_gear='14.0e9'), &
+            'face_width and contact_lines; 0: rigid.', sensible=[1.0e7_dp, 1.0e12_dp], computable=[0.0_dp, 1.0e20_dp], &
+            with_gear='14.0e9'), &
       key_t('shaft', 'speed_rpm', real_kind, '1/min', 'required', positive, '', of_motions, &
-            'Mean speed of the shaft.', &
-            example='800.0', &
-            sensible=range_t(lower=1.0_dp, upper=1.0e5_dp), &
-            computable=range_t(1.0e-6_dp, .false., 1.0e9_dp, .false.)), &
+            'Mean speed of the shaft.', example='800.0', sensible=[1.0_dp, 1.0e5_dp], computable=[1.0e-6_dp, 1.0e9_dp]), &
       key_t('shaft', 'table', text_kind, '', '', any_number, '', of_motions, &
             'CSV file, in the folder of this input, with a measured run-up instead of orders, accelerations and phases: '// &
             'columns speed_rpm, acceleration_O [rad/s2] and, if known, phase_O of each order O; linear, refused outside.'), &
       key_t('shaft', 'orders', reals_kind, '-', 'required', positive, '', of_listed_motions, &
             'Engine orders of its angular acceleration, multiples of the speed; an engine of four strokes has halves among them.', &
-            example='2.0', &
-            sensible=range_t(lower=0.1_dp, upper=1000.0_dp), &
-            computable=range_t(1.0e-3_dp, .false., 1.0e6_dp, .false.)), &
+            example='2.0', sensible=[0.1_dp, 1000.0_dp], computable=[1.0e-3_dp, 1.0e6_dp]), &
       key_t('shaft', 'accelerations', reals_kind, 'rad/s2', '', not_negative, '', of_listed_motions, &
             'Amplitude of the angular acceleration of each engine order; load.force_scale multiplies all of them.', &
-            example='600.0', &
-            sensible=range_t(lower=0.0_dp, upper=1.0e5_dp), &
-            computable=an_amplitude), &
+            example='600.0', sensible=[0.0_dp, 1.0e5_dp], computable=an_amplitude), &
       key_t('shaft', 'speed_amplitudes', reals_kind, 'rad/s', '', not_negative, '', of_listed_motions, &
             'Amplitude of the angular speed of each engine order instead of accelerations: differentiated at speed_rpm, '// &
-            'whatever that is varied to. A signal of a speed becomes this.', &
-            sensible=range_t(lower=0.0_dp, upper=1.0e3_dp), &
+            'whatever that is varied to. A signal of a speed becomes this.', sensible=[0.0_dp, 1.0e3_dp], &
             computable=an_amplitude), &
       key_t('shaft', 'phases', reals_kind, 'rad', '', any_number, '', of_listed_motions, &
             'Phase of each engine order: A cos(2 pi order t speed_rpm/60 + phase) is its acceleration or speed; absent: all 0.', &
-            sensible=range_t(lower=-1.0e3_dp, upper=1.0e3_dp), &
-            computable=a_phase), &
+            sensible=[-1.0e3_dp, 1.0e3_dp], computable=a_phase), &
       key_t('shaft', 'signal', text_kind, '', '', any_number, '', of_listed_motions, &
             'CSV file, in the folder of this input, with cycles of the motion of the shaft, uniformly sampled, instead of '// &
             'orders, accelerations (or speed_amplitudes) and phases. Its axis must fit speed_rpm and cycle_revolutions.'), &
@@ -362,66 +274,52 @@ module key_table
             of_listed_motions, &
             'Revolutions of the shaft in a cycle of the signal: two of a four-stroke engine.'), &
       key_t('oil', 'viscosity_40_cst', real_kind, 'mm2/s', 'required', a_data_viscosity, '', '', &
-            'Kinematic viscosity at 40 degC, of the data sheet.', &
-            example='58.0', &
-            sensible=range_t(lower=2.0_dp, upper=2.0e3_dp)), &
+            'Kinematic viscosity at 40 degC, of the data sheet.', example='58.0', sensible=[2.0_dp, 2.0e3_dp]), &
       key_t('oil', 'viscosity_100_cst', real_kind, 'mm2/s', 'required', a_data_viscosity, '', '', &
-            'Kinematic viscosity at 100 degC.', &
-            example='9.6', &
-            sensible=range_t(lower=1.0_dp, upper=200.0_dp)), &
+            'Kinematic viscosity at 100 degC.', example='9.6', sensible=[1.0_dp, 200.0_dp]), &
       key_t('oil', 'density_15', real_kind, 'kg/m3', '870.0', positive, '', '', &
-            'Density at 15 degC.', &
-            sensible=range_t(lower=600.0_dp, upper=1500.0_dp), &
-            computable=range_t(1.0_dp, .false., 1.0e5_dp, .false.)), &
+            'Density at 15 degC.', sensible=[600.0_dp, 1500.0_dp], computable=[1.0_dp, 1.0e5_dp]), &
       key_t('oil', 'temperature_celsius', real_kind, 'degC', 'required', range_t(-150.0_dp, .false., 400.0_dp, .false.), '', '', &
             'Temperature of the oil. A warning says where it lies more than 60 K beyond 40 or 100 degC, or the oil is '// &
-            'thinner than 2 mm2/s.', &
-            example='40.0', &
-            sensible=range_t(lower=-50.0_dp, upper=200.0_dp)), &
+            'thinner than 2 mm2/s.', example='40.0', sensible=[-50.0_dp, 200.0_dp]), &
       key_t('oil', 'base', text_kind, '', 'mineral', any_number, 'mineral pao polyglycol', '', &
             'Kind of base oil, by which pressure raises its viscosity (ISO/TR 15144-1).'), &
       key_t('oil', 'pressure_viscosity', real_kind, '1/Pa', '', positive, '', '', &
-            'Barus coefficient alpha; absent: that of its kind at this temperature.', &
-            sensible=range_t(lower=1.0e-10_dp, upper=1.0e-7_dp), &
+            'Barus coefficient alpha; absent: that of its kind at this temperature.', sensible=[1.0e-10_dp, 1.0e-7_dp], &
             computable=a_pressure_viscosity), &
       key_t('oil', 'volume', real_kind, 'm3', '2.0e-3', positive, '', of_motions, &
-            'Volume of the oil that gears churn, where a drag is computed.', &
-            sensible=range_t(lower=1.0e-4_dp, upper=0.1_dp), &
-            computable=range_t(1.0e-12_dp, .false., 1.0e6_dp, .false.)) &
+            'Volume of the oil that gears churn, where a drag is computed.', sensible=[1.0e-4_dp, 0.1_dp], &
+            computable=[1.0e-12_dp, 1.0e6_dp]) &
       ]
 
    type(key_t), parameter :: keys_of_tasks(*) = [ &
-      key_t('solver', 'method', text_kind, '', 'taylor', any_number, 'newmark taylor', &
-            of_motions, &
+      key_t('solver', 'method', text_kind, '', 'taylor', any_number, 'newmark taylor', of_motions, &
             'Time integration: taylor (error-controlled series, implicit where the film is stiff) or the paper''s newmark.'), &
       key_t('solver', 'accuracy', real_kind, '-', '1.0e-8', range_t(1.0e-12_dp, .false., 1.0e-2_dp, .false.), '', &
             'solver.method=taylor', &
             'Relative accuracy of the film that an error-controlled method aims at; of model = resolved 1e-3 unless given, '// &
             '1e-5 at least, and that of the peak of the acceleration.'), &
       key_t('solver', 'until', text_kind, '', 'periods', any_number, 'periods steady', 'scene.task=motion|campaign|threshold', &
-      'End of the run: all periods, or as soon as the motion is verified to repeat; then one period of the motion is the window.', &
-            with_gear='steady'), &
+            'End of the run: all periods, or as soon as the motion is verified to repeat; then one period of the motion is the '// &
+            'window.', with_gear='steady'), &
       key_t('solver', 'periods', integer_kind, '-', '120', at_least_1, '', of_motions, &
             'Periods of the force that are solved (the most, until steady); at least those of the spectrum window.'), &
       key_t('solver', 'starts', integer_kind, '-', '', range_t(1.0_dp, .false., 1.0e4_dp, .false.), '', &
             'scene.task=motion|campaign|threshold & solver.method=taylor', &
             'Starts that the motions of a scene are looked for from; absent: 29 of a motion, 3 of a campaign or threshold. 1: '// &
-               'its own start alone.'), &
+            'its own start alone.'), &
       key_t('solver', 'time_limit', real_kind, 's', '', positive, '', 'scene.task=motion', &
             'Wall time after which the run ends cleanly, to be resumed; of films in nodes, what is learned of the motion too; '// &
-               'absent: none.'), &
-      key_t('solver', 'samples_per_period', integer_kind, '-', '512', at_least_8, '', &
-            'solver.method=taylor', &
-            'Samples of a period that are kept; the steps are chosen by the accuracy.', &
-            with_gear='4096'), &
+            'absent: none.'), &
+      key_t('solver', 'samples_per_period', integer_kind, '-', '512', at_least_8, '', 'solver.method=taylor', &
+            'Samples of a period that are kept; the steps are chosen by the accuracy.', with_gear='4096'), &
       key_t('solver', 'iteration', text_kind, '', 'newton', any_number, 'newton successive', 'solver.method=newmark', &
             'Iteration in a step: newton with the exact slopes of the film, or the paper''s successive one.'), &
-      key_t('solver', 'predictor', text_kind, '', 'extrapolated', any_number, 'extrapolated previous', &
-            'solver.method=newmark', &
+      key_t('solver', 'predictor', text_kind, '', 'extrapolated', any_number, 'extrapolated previous', 'solver.method=newmark', &
             'First iterate of a step: extrapolated with the present acceleration, or the previous state as it stands.'), &
       key_t('solver', 'tolerance', real_kind, 'm', '1.0e-14', positive, '', 'solver.method=newmark', &
             'Tolerance eps of (36) on the film between two iterations; it lets through an acceleration error of about 4 '// &
-               'eps/dt^2.'), &
+            'eps/dt^2.'), &
       key_t('solver', 'iteration_limit', integer_kind, '-', '100', range_t(1.0_dp, .false., 1.0e5_dp, .false.), '', &
             'solver.method=newmark', &
             'Most iterations in a step; a step that needs more ends the scene as not_converged.'), &
@@ -444,24 +342,18 @@ module key_table
       key_t('spectrum', 'verification_tolerance', real_kind, '-', '0.01', fraction, '', verified, &
             'Largest error of the film, relative, with which the class of a regular motion is verified.'), &
       key_t('points', 'film_ratios', reals_kind, '-', '', positive, '', 'scene.task=film', &
-            'Film ratios h* = h0/R, one or more; give these or film_ratio_range.', &
-            example='70.0e-6', &
-            computable=a_film_ratio), &
+            'Film ratios h* = h0/R, one or more; give these or film_ratio_range.', example='70.0e-6', computable=a_film_ratio), &
       key_t('points', 'film_ratio_range', reals_kind, '-', '', positive, '', 'scene.task=film', &
-            'First and last film ratio and their count, logarithmically spaced.', &
-            computable=a_film_ratio), &
+            'First and last film ratio and their count, logarithmically spaced.', computable=a_film_ratio), &
       key_t('points', 'squeeze_ratios', reals_kind, '-', '0.0', any_number, '', 'scene.task=film', &
             'Squeeze-roll speed ratios w* = w/u, negative on approach; give these or squeeze_ratio_range.', &
             computable=a_squeeze_ratio), &
       key_t('points', 'squeeze_ratio_range', reals_kind, '-', '', any_number, '', 'scene.task=film', &
-            'First and last squeeze-roll ratio and their count, linearly spaced.', &
-            computable=a_squeeze_ratio), &
+            'First and last squeeze-roll ratio and their count, linearly spaced.', computable=a_squeeze_ratio), &
       key_t('points', 'speed_groups', reals_kind, '-', '', positive, '', 'scene.task=film', &
-            'Speed groups u* = u eta0 alpha/R; absent: formed from &kinematics as speed_reading says.', &
-            computable=a_speed_group), &
+            'Speed groups u* = u eta0 alpha/R; absent: formed from &kinematics as speed_reading says.', computable=a_speed_group), &
       key_t('points', 'speed_group_range', reals_kind, '-', '', positive, '', 'scene.task=film', &
-            'First and last speed group and their count, logarithmically spaced.', &
-            computable=a_speed_group), &
+            'First and last speed group and their count, logarithmically spaced.', computable=a_speed_group), &
       key_t('points', 'speed_reading', text_kind, '', 'mean', any_number, 'mean sum', 'scene.task=film', &
             'Which speed of &kinematics is the u of u* and w*: mean is the entrainment speed U, sum is u_r = 2U.'), &
       key_t('points', 'compute', list_kind, '', 'rupture load stiffness damping pressure', any_number, &
@@ -480,11 +372,9 @@ module key_table
             'What is swept: a key of &load or &contact, the entrainment speed; or a key of &shaft, &gear or &oil.', &
             example='frequency'), &
       key_t('sweep', 'first', real_kind, 'of key', 'required', any_number, '', 'scene.task=sweep', &
-            'Value that the sweep begins with.', &
-            example='200.0'), &
+            'Value that the sweep begins with.', example='200.0'), &
       key_t('sweep', 'last', real_kind, 'of key', 'required', any_number, '', 'scene.task=sweep', &
-            'Value at which it turns or ends.', &
-            example='800.0'), &
+            'Value at which it turns or ends.', example='800.0'), &
       key_t('sweep', 'count', integer_kind, '-', '101', range_t(2.0_dp, .false., 1.0e6_dp, .false.), '', 'scene.task=sweep', &
             'Values from first to last.'), &
       key_t('sweep', 'spacing', text_kind, '', 'linear', any_number, 'linear logarithmic', 'scene.task=sweep', &
@@ -507,18 +397,18 @@ module key_table
             'Which scenes: the full grid, or a sample of the ranges.'), &
       key_t('campaign', 'size', integer_kind, '-', '', at_least_1, '', 'campaign.sample=sobol', &
             'Scenes of a sample.'), &
-      key_t('campaign', 'seed', integer_kind, '-', '1', range_t(0.0_dp, .false., 2.0e9_dp, .false.), '', &
-            'campaign.sample=sobol', &
+      key_t('campaign', 'seed', integer_kind, '-', '1', range_t(0.0_dp, .false., 2.0e9_dp, .false.), '', 'campaign.sample=sobol', &
             'Seed of a sample: the same seed gives the same scenes everywhere.'), &
       key_t('campaign', 'csv', text_kind, '', '', any_number, '', of_campaigns, &
             'Table of scenes instead of vary: a CSV file, found from the folder of this input, whose header names group.key, '// &
             'one scene per row.'), &
-      key_t('campaign', 'record', list_kind, '', 'film_minimum film_maximum acceleration_minimum acceleration_maximum '// &
+      key_t('campaign', 'record', list_kind, '', &
+            'film_minimum film_maximum acceleration_minimum acceleration_maximum '// &
             'natural_frequency damping_ratio harmonic_count harmonic_count_is_bound harmonic_distortion '// &
             'harmonic_distortion_is_bound irregular_fraction irregular_fraction_is_bound reversals_per_period '// &
             'rattle_class motions loudest_class loudest_acceleration_rms sampling_sufficient film_regime alpha_p_maximum '// &
-            'model_limit harmonics', any_number, recordable, &
-            'scene.task=campaign', &
+            'model_limit harmonics', &
+            any_number, recordable, 'scene.task=campaign', &
             'Recorded of every scene beside number, varied keys and status; verified (1 or 0) solves each again, tighter.'), &
       key_t('campaign', 'neighbours', logical_kind, '', '.true.', any_number, '', 'scene.task=campaign & campaign.sample=grid', &
             'Whether motions found at a point of a grid are handed as starts to its neighbours that have none like them.'), &
@@ -537,17 +427,14 @@ module key_table
             'Key whose thresholds are found, as ''group.key'': any numeric key of a motion but those that &campaign varies.', &
             example='load.force_amplitude'), &
       key_t('threshold', 'first', real_kind, 'of key', 'required', any_number, '', of_thresholds, &
-            'Least value of the key.', &
-            example='5.0'), &
+            'Least value of the key.', example='5.0'), &
       key_t('threshold', 'last', real_kind, 'of key', 'required', any_number, '', of_thresholds, &
-            'Largest value of the key.', &
-            example='455.0'), &
+            'Largest value of the key.', example='455.0'), &
       key_t('threshold', 'scale', text_kind, '', 'linear', any_number, 'linear logarithmic', of_thresholds, &
             'How the range is divided, by the scan and by halves.'), &
       key_t('threshold', 'count', integer_kind, '-', '33', range_t(2.0_dp, .false., 1.0e6_dp, .false.), '', of_thresholds, &
             'Values of the scan, both ends included; two changes between neighbours that cancel each other stay unseen.'), &
-      key_t('threshold', 'tolerance', real_kind, '-', '1.0e-4', range_t(1.0e-9_dp, .false., 0.5_dp, .false.), '', &
-            of_thresholds, &
+      key_t('threshold', 'tolerance', real_kind, '-', '1.0e-4', range_t(1.0e-9_dp, .false., 0.5_dp, .false.), '', of_thresholds, &
             'Largest width of a bracket, a share of the range from first to last (of its logarithm where the scale is); '// &
             'integers to the next one.'), &
       key_t('threshold', 'criterion', text_kind, '', 'class', any_number, 'class impacts '//class_words//measurable, &
@@ -561,8 +448,7 @@ module key_table
       key_t('output', 'series', logical_kind, '', '.true.', any_number, '', 'scene.task=motion', &
             'Whether the time series is written to NAME.rattle.'), &
       key_t('output', 'columns', list_kind, '', 'time applied_force film_thickness acceleration', any_number, &
-            'time applied_force film_thickness squeeze_velocity acceleration film_load coast_film coast_load '// &
-            'gear_position', &
+            'time applied_force film_thickness squeeze_velocity acceleration film_load coast_film coast_load gear_position', &
             'scene.task=motion', &
             'Columns of the time series, any of these, in this order; those of the coast flank with contact.backlash only.'), &
       key_t('output', 'stride', integer_kind, '-', '1', at_least_1, '', 'scene.task=motion', &
@@ -590,14 +476,14 @@ module key_table
 contains
 
    !> Position of a key in the table, 0 if there is none.
-   pure integer function find_key(group, name)
-      !> Namelist group, lower case
-      character(*), intent(in) :: group
-      !> Name in the group, lower case
+   pure integer function find_key(name)
+      !> As group.name, lower case
       character(*), intent(in) :: name
+      integer :: dot
 
+      dot = index(name, '.')
       do find_key = 1, size(keys)
-         if (keys(find_key)%group == group .and. keys(find_key)%name == name) return
+         if (keys(find_key)%group == name(:dot - 1) .and. keys(find_key)%name == name(dot + 1:)) return
       end do
       find_key = 0
    end function find_key
@@ -622,15 +508,15 @@ contains
    end function key_name
 
    !> The word of a choice, from its code: its position among the choices of the key.
-   pure function choice_word(group, name, code) result(word)
-      character(*), intent(in) :: group
+   pure function choice_word(name, code) result(word)
+      !> As group.name
       character(*), intent(in) :: name
       !> Position, from 1
       integer, intent(in) :: code
       character(:), allocatable :: word
       type(word_t), allocatable :: words(:)
 
-      allocate (words, source=split_words(keys(find_key(group, name))%choices))
+      allocate (words, source=split_words(keys(find_key(name))%choices))
       word = words(code)%text
    end function choice_word
 

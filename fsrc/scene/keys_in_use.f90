@@ -66,30 +66,21 @@ contains
 
       equals = index(rule, '=')
       if (equals > 0) then
-         decider = named_key(rule(:equals - 1))
+         decider = find_key(rule(:equals - 1))
          holds = in_use(input, decider)
          if (.not. holds .or. .not. input%entries(decider)%present .or. input%entries(decider)%faulty) return
          holds = index('|'//rule(equals + 1:)//'|', '|'//input%entries(decider)%word//'|') > 0
       else if (index(rule, without) == 1) then
-         holds = .not. input%entries(named_key(rule(len(without) + 1:)))%given
+         holds = .not. input%entries(find_key(rule(len(without) + 1:)))%given
       else
          holds = .false.
          first = 1
          do while (first <= len(rule))
             last = first + index(rule(first:)//'|', '|') - 2
-            holds = holds .or. input%entries(named_key(rule(first:last)))%given
+            holds = holds .or. input%entries(find_key(rule(first:last)))%given
             first = last + 2
          end do
       end if
    end function rule_holds
-
-   !> Position of 'group.key' in the key table.
-   pure integer function named_key(name)
-      character(*), intent(in) :: name
-      integer :: dot
-
-      dot = index(name, '.')
-      named_key = find_key(name(:dot - 1), name(dot + 1:))
-   end function named_key
 
 end module keys_in_use

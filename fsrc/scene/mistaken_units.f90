@@ -75,7 +75,7 @@ module mistaken_units
       mistake_t('oil', 'pressure_viscosity', '1/GPa', 1.0e-9_dp, 1.0e-10_dp, 1.0e-7_dp), &
       mistake_t('oil', 'pressure_viscosity', '1/MPa', 1.0e-6_dp, 1.0e-10_dp, 1.0e-7_dp)]
 
-   public :: is_odd, odd_words, meant_behind, meant_words, acceleration_meant, speed_meant
+   public :: is_odd, odd_words, meant_behind, acceleration_meant, speed_meant
 
 contains
 

@@ -34,7 +34,7 @@ contains
             if (keys(i)%kind == reals_kind) lines = [lines, odd_numbers_of_list(place_of(entry), what, i, entry%numbers)]
          end associate
       end do
-      task = input%word('scene', 'task')
+      task = input%word('scene.task')
       if (task == 'sweep' .or. task == 'threshold') call add_ends(input, task, lines)
       if (task == 'campaign' .or. task == 'threshold') call add_campaign(input, lines)
    end function odd_numbers_of_input
@@ -47,19 +47,15 @@ contains
       type(word_t), allocatable, intent(inout) :: lines(:)
       character(*), parameter :: ends(2) = ['first', 'last ']
       character(:), allocatable :: name
-      integer :: i, dot, position
+      integer :: i, position
 
-      name = input%word(task, 'key')
-      dot = index(name, '.')
-      if (dot == 0) then
-         position = find_swept_key(name)
-      else
-         position = find_key(name(:dot - 1), name(dot + 1:))
-      end if
+      name = input%word(task//'.key')
+      position = find_key(name)
+      if (index(name, '.') == 0) position = find_swept_key(name)
       if (position < 1 .or. position > size(keys)) return
       do i = 1, size(ends)
-         call add_odd(input%entries(find_key(task, trim(ends(i)))), '&'//task//' '//trim(ends(i)), position, &
-                      input%number(task, trim(ends(i))), whose(position), lines)
+         call add_odd(input%entries(find_key(task//'.'//ends(i))), '&'//task//' '//trim(ends(i)), position, &
+                      input%number(task//'.'//ends(i)), whose(position), lines)
       end do
    end subroutine add_ends
 
@@ -68,15 +64,14 @@ contains
       type(scene_input_t), intent(in) :: input
       type(word_t), allocatable, intent(inout) :: lines(:)
       type(word_t), allocatable :: names(:)
-      integer :: i, dot, position
+      integer :: i, position
 
-      allocate (names, source=split_words(input%words('campaign', 'vary')))
+      allocate (names, source=split_words(input%words('campaign.vary')))
       do i = 1, size(names)
-         dot = index(names(i)%text, '.')
-         position = find_key(names(i)%text(:dot - 1), names(i)%text(dot + 1:))
+         position = find_key(names(i)%text)
          if (position == 0) cycle
-         associate (first => input%entries(find_key('campaign', 'first')), last => input%entries(find_key('campaign', 'last')), &
-                    values => input%entries(find_key('campaign', 'values')))
+         associate (first => input%entries(find_key('campaign.first')), last => input%entries(find_key('campaign.last')), &
+                    values => input%entries(find_key('campaign.values')))
             if (i <= size(values%columns)) then
                if (size(values%columns(i)%numbers) > 0) then
                   lines = [lines, odd_numbers_of_list(place_of(values), '&campaign values(:, '//integer_text(i)//')', position, &
@@ -172,7 +167,7 @@ contains
       if (.not. allocated(shaft%orders)) return
       ! The amplitudes of a run-up are those of its table, at each speed.
       if (.not. (allocated(shaft%speed_amplitudes) .or. allocated(shaft%accelerations))) return
-      if (is_odd(keys(find_key('shaft', 'speed_rpm')), shaft%speed_rpm)) return
+      if (is_odd(keys(find_key('shaft.speed_rpm')), shaft%speed_rpm)) return
       speed = two_pi*shaft%speed_rpm/60.0_dp
       limit = largest_share*speed**2
       if (allocated(shaft%speed_amplitudes)) then
@@ -192,9 +187,9 @@ contains
          meant = short_text(limit, 3)//' rad/s2 at most); it would be '//acceleration_meant(accelerations(worst))
       end if
       key = 'accelerations'
-      if (input%is_given('shaft', 'speed_amplitudes')) key = 'speed_amplitudes'
-      if (input%is_given('shaft', 'signal')) key = 'signal'
-      associate (entry => input%entries(find_key('shaft', key)), order => shaft%orders(worst))
+      if (input%is_given('shaft.speed_amplitudes')) key = 'speed_amplitudes'
+      if (input%is_given('shaft.signal')) key = 'signal'
+      associate (entry => input%entries(find_key('shaft.'//key)), order => shaft%orders(worst))
          lines = [word_t('warning: '//place_of(entry)//': &shaft '//key//': '//number//' of order '//short_text(order, 3)// &
                          ' is not what machines have: the speed of '//real_text(shaft%speed_rpm)//' 1/min would swing by '// &
                          short_text(100.0_dp*accelerations(worst)/(order*speed**2), 2)//' % ('//meant)]

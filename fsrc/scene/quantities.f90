@@ -27,39 +27,32 @@ module quantities
          quantity_window_periods, quantity_samples_per_period, quantity_series_coarse, quantity_harmonics_by_integrals, &
          quantity_film_minimum, quantity_film_maximum, quantity_velocity_minimum, quantity_velocity_maximum, &
          quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_load_minimum, quantity_load_maximum, &
-         quantity_acceleration_rms, quantity_gear_acceleration_rms, quantity_gear_acceleration_maximum, &
-         quantity_crest_factor, quantity_acceleration_kurtosis, quantity_film_force_rms, &
-         quantity_dissipated_energy, quantity_dissipated_power, quantity_coast_film_minimum, quantity_coast_film_maximum, &
-         quantity_coast_load_maximum, quantity_reversal, quantity_unloaded_share, quantity_separation, &
-         quantity_impacts_per_period_drive, quantity_impacts_per_period_coast, quantity_impact_load_maximum_drive, &
-         quantity_impact_load_maximum_coast, quantity_impact_velocity_maximum_drive, quantity_impact_velocity_maximum_coast, &
-         quantity_impact_impulse_maximum_drive, quantity_impact_impulse_maximum_coast, quantity_impact_impulse_mean_drive, &
-         quantity_impact_impulse_mean_coast, quantity_double_sided, quantity_verdict, &
-         quantity_impact_periods, quantity_impacts_drive, quantity_impacts_coast, &
-         quantity_impact_times_drive, quantity_impact_loads_drive, quantity_impact_velocities_drive, &
-         quantity_impact_impulses_drive, &
+         quantity_acceleration_rms, quantity_gear_acceleration_rms, quantity_gear_acceleration_maximum, quantity_crest_factor, &
+         quantity_acceleration_kurtosis, quantity_film_force_rms, quantity_dissipated_energy, quantity_dissipated_power, &
+         quantity_coast_film_minimum, quantity_coast_film_maximum, quantity_coast_load_maximum, quantity_reversal, &
+         quantity_unloaded_share, quantity_separation, quantity_impacts_per_period_drive, quantity_impacts_per_period_coast, &
+         quantity_impact_load_maximum_drive, quantity_impact_load_maximum_coast, quantity_impact_velocity_maximum_drive, &
+         quantity_impact_velocity_maximum_coast, quantity_impact_impulse_maximum_drive, quantity_impact_impulse_maximum_coast, &
+         quantity_impact_impulse_mean_drive, quantity_impact_impulse_mean_coast, quantity_double_sided, quantity_verdict, &
+         quantity_impact_periods, quantity_impacts_drive, quantity_impacts_coast, quantity_impact_times_drive, &
+         quantity_impact_loads_drive, quantity_impact_velocities_drive, quantity_impact_impulses_drive, &
          quantity_impact_times_coast, quantity_impact_loads_coast, quantity_impact_velocities_coast, &
-         quantity_impact_impulses_coast, &
-         quantity_gear_position_minimum, quantity_gear_position_maximum, &
-         quantity_model_limit, quantity_reversals_per_period, &
-         quantity_harmonics, quantity_first_harmonic, quantity_harmonic_count, quantity_harmonic_count_is_bound, &
-         quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, quantity_irregular_fraction, &
-         quantity_irregular_fraction_is_bound, quantity_sampling_sufficient, quantity_rattle_class, &
-         quantity_motions, quantity_starts_solved, quantity_unsettled_starts, quantity_start_periods, &
-         quantity_loudest_class, &
+         quantity_impact_impulses_coast, quantity_gear_position_minimum, quantity_gear_position_maximum, quantity_model_limit, &
+         quantity_reversals_per_period, quantity_harmonics, quantity_first_harmonic, quantity_harmonic_count, &
+         quantity_harmonic_count_is_bound, quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, &
+         quantity_irregular_fraction, quantity_irregular_fraction_is_bound, quantity_sampling_sufficient, quantity_rattle_class, &
+         quantity_motions, quantity_starts_solved, quantity_unsettled_starts, quantity_start_periods, quantity_loudest_class, &
          quantity_loudest_verdict, quantity_loudest_acceleration_rms, quantity_loudest_film_force_rms, &
-         quantity_loudest_film_minimum, &
-         quantity_quietest_class, quantity_quietest_acceleration_rms, quantity_motion_end, &
-         quantity_lyapunov_exponent, quantity_verified, &
-         quantity_verdict_verified, quantity_impacts_verified, quantity_film_error, &
+         quantity_loudest_film_minimum, quantity_quietest_class, quantity_quietest_acceleration_rms, quantity_motion_end, &
+         quantity_lyapunov_exponent, quantity_verified, quantity_verdict_verified, quantity_impacts_verified, quantity_film_error, &
          quantity_film_minimum_error, quantity_film_maximum_error, quantity_acceleration_error, &
          quantity_acceleration_minimum_error, quantity_acceleration_maximum_error, quantity_severity_error, &
          quantity_harmonic_errors, quantity_orbit_period, quantity_orbit_stability, quantity_floquet_multipliers, &
          quantity_floquet_modulus, quantity_pressure_maximum, quantity_pressure_error, quantity_pressure_resolved, &
          quantity_film_at_pressure_maximum, quantity_central_film, quantity_alpha_p_maximum, quantity_deflection, &
          quantity_deflection_share, quantity_stiffness_matters, quantity_film_regime, quantity_law_contradicted, &
-         quantity_closure_range, quantity_film_model, &
-         quantity_periods_solved, quantity_evaluations, quantity_steps, quantity_steps_cut, quantity_iterations_per_step
+         quantity_closure_range, quantity_film_model, quantity_periods_solved, quantity_evaluations, quantity_steps, &
+         quantity_steps_cut, quantity_iterations_per_step
    end enum
 
    !> What is told of each contact, and the codes of its quantities: that of the drive flank, that of the coast flank.
@@ -94,7 +87,7 @@ module quantities
       !> Where it is told, besides the words of its codes: any of summary, sweep, flanks (a sweep of scenes with a backlash),
       !> gears (a sweep of gears), campaign (a word of its key record), log
       character(28) :: told_in
-      character(160) :: meaning
+      character(168) :: meaning
       !> Words of the codes, from the first code on, a bar between two
       character(160) :: words = ''
       integer :: first_code = 0
@@ -111,8 +104,7 @@ module quantities
       quantity_t(quantity_steady_film, 'steady_film', 'm', a_number, part_scene, needs_nothing, 'summary campaign log', &
          'Film that carries the static load Q + m g without motion.'), &
       quantity_t(quantity_natural_frequency, 'natural_frequency', 'Hz', a_number, part_scene, needs_nothing, &
-         'summary sweep campaign log', &
-         'Of small motions about the steady film, undamped; unknown where they are overdamped.'), &
+         'summary sweep campaign log', 'Of small motions about the steady film, undamped; unknown where they are overdamped.'), &
       quantity_t(quantity_damping_ratio, 'damping_ratio', '-', a_number, part_scene, needs_nothing, 'summary campaign log', &
          'Of small motions about the steady film; unknown where they are overdamped.', digits=4), &
       quantity_t(quantity_drag_torque, 'drag_torque', 'N m', a_number, part_scene, needs_nothing, 'summary gears campaign log', &
@@ -123,8 +115,7 @@ module quantities
          'summary gears campaign log', &
          'Part of a computed drag_torque: the synchroniser; negative where the own shaft pulls the gear forward.', digits=4), &
       quantity_t(quantity_drag_churning, 'drag_churning', 'N m', a_number, part_scene, needs_nothing, &
-         'summary gears campaign log', &
-         'Part of a computed drag_torque: the oil that the gear churns.', digits=4), &
+         'summary gears campaign log', 'Part of a computed drag_torque: the oil that the gear churns.', digits=4), &
       quantity_t(quantity_inertia_ratio, 'inertia_ratio', '-', a_number, part_scene, needs_nothing, 'summary gears campaign log', &
          'Lambda: largest inertia force that pulls the tooth of a loose gear off its flank over the drag that holds it there; '// &
          'above 1 it leaves without oil.', digits=4), &
@@ -141,16 +132,14 @@ module quantities
       quantity_t(quantity_film_maximum, 'film_maximum', 'm', a_number, part_window, needs_film_range, 'summary sweep campaign', &
          'Largest film of the window.'), &
       quantity_t(quantity_velocity_minimum, 'velocity_minimum', 'm/s', a_number, part_window, needs_velocity_range, &
-         'summary campaign', &
-         'Smallest film velocity of the window: the fastest approach.'), &
+         'summary campaign', 'Smallest film velocity of the window: the fastest approach.'), &
       quantity_t(quantity_velocity_maximum, 'velocity_maximum', 'm/s', a_number, part_window, needs_velocity_range, &
-         'summary campaign', &
-         'Largest film velocity of the window: the fastest separation.'), &
-      quantity_t(quantity_acceleration_minimum, 'acceleration_minimum', 'm/s2', a_number, part_window, &
-         needs_acceleration_range, 'summary sweep campaign', &
+         'summary campaign', 'Largest film velocity of the window: the fastest separation.'), &
+      quantity_t(quantity_acceleration_minimum, 'acceleration_minimum', 'm/s2', a_number, part_window, needs_acceleration_range, &
+         'summary sweep campaign', &
          'Smallest acceleration of the window; with a &gear relative to the shaft, along the line of action.'), &
-      quantity_t(quantity_acceleration_maximum, 'acceleration_maximum', 'm/s2', a_number, part_window, &
-         needs_acceleration_range, 'summary sweep campaign', &
+      quantity_t(quantity_acceleration_maximum, 'acceleration_maximum', 'm/s2', a_number, part_window, needs_acceleration_range, &
+         'summary sweep campaign', &
          'Largest acceleration of the window; with a &gear relative to the shaft, along the line of action.'), &
       quantity_t(quantity_load_minimum, 'load_minimum', 'N', a_number, part_window, needs_load_range, 'summary', &
          'Smallest load of the film over the window.'), &
@@ -168,38 +157,29 @@ module quantities
          needs_acceleration_range, 'summary gears campaign log', &
          'Largest size of the angular acceleration of the loose gear, relative to a gear that follows the shaft without a gap.', &
          digits=4), &
-      quantity_t(quantity_crest_factor, 'crest_factor', '-', a_number, part_window, needs_acceleration_range, &
-         'summary campaign', &
+      quantity_t(quantity_crest_factor, 'crest_factor', '-', a_number, part_window, needs_acceleration_range, 'summary campaign', &
          'Largest size of the acceleration over acceleration_rms; of a cosine 1.414.'), &
       quantity_t(quantity_acceleration_kurtosis, 'acceleration_kurtosis', '-', a_number, part_window, needs_nothing, &
-         'summary campaign', &
-         'Fourth central moment of the acceleration over the square of its variance; of a cosine 1.5.'), &
-      quantity_t(quantity_film_force_rms, 'film_force_rms', 'N', a_number, part_window, needs_nothing, &
-         'summary sweep campaign', &
+         'summary campaign', 'Fourth central moment of the acceleration over the square of its variance; of a cosine 1.5.'), &
+      quantity_t(quantity_film_force_rms, 'film_force_rms', 'N', a_number, part_window, needs_nothing, 'summary sweep campaign', &
          'Root of the mean square by which the film force leaves its mean: what the bearings feel.', digits=4), &
-      quantity_t(quantity_dissipated_energy, 'dissipated_energy', 'J', a_number, part_window, needs_nothing, &
-         'summary campaign', &
+      quantity_t(quantity_dissipated_energy, 'dissipated_energy', 'J', a_number, part_window, needs_nothing, 'summary campaign', &
          'Work that the film takes a period of the force, - integral of (W - Q - m g) dh over the window by its periods; '// &
          'less than 0 at times if it does not repeat.'), &
       quantity_t(quantity_dissipated_power, 'dissipated_power', 'W', a_number, part_window, needs_nothing, &
-         'summary sweep campaign log', &
-         'dissipated_energy times the frequency of the force.', digits=4), &
+         'summary sweep campaign log', 'dissipated_energy times the frequency of the force.', digits=4), &
       quantity_t(quantity_coast_film_minimum, 'coast_film_minimum', 'm', a_number, part_window, needs_coast_film_range, &
-         'summary flanks campaign', &
-         'Minimum film thickness of the coast flank over the window, where there is a backlash.'), &
+         'summary flanks campaign', 'Minimum film thickness of the coast flank over the window, where there is a backlash.'), &
       quantity_t(quantity_coast_film_maximum, 'coast_film_maximum', 'm', a_number, part_window, needs_coast_film_range, &
-         'summary campaign', &
-         'Largest film of the coast flank over the window.'), &
+         'summary campaign', 'Largest film of the coast flank over the window.'), &
       quantity_t(quantity_coast_load_maximum, 'coast_load_maximum', 'N', a_number, part_window, needs_coast_load_range, &
-         'summary campaign', &
-         'Largest load of the film of the coast flank over the window.')]
+         'summary campaign', 'Largest load of the film of the coast flank over the window.')]
 
    !> Those of separation and impacts.
    type(quantity_t), parameter, private :: quantities_of_impacts(*) = [ &
       quantity_t(quantity_reversal, 'reversal', '-', a_flag, part_window, needs_impacts, 'summary sweep campaign', &
          'Whether the load of the drive film less that of the coast film changes its sign over the window.'), &
-      quantity_t(quantity_unloaded_share, 'unloaded_share', '-', a_number, part_window, needs_impacts, &
-         'summary sweep campaign', &
+      quantity_t(quantity_unloaded_share, 'unloaded_share', '-', a_number, part_window, needs_impacts, 'summary sweep campaign', &
          'Share of the window in which the drive film carries less than a hundredth of |Q + m g|; of F_max where that is 0.'), &
       quantity_t(quantity_separation, 'separation', '-', a_flag, part_window, needs_impacts, 'summary sweep campaign', &
          'Whether the tooth leaves the drive flank: reversal, or an unloaded share above 0.'), &
@@ -210,11 +190,9 @@ module quantities
          'summary flanks campaign', &
          'Impacts on the coast flank a period: maxima of its load above impact_limit times F_max, the largest |F + m g|.'), &
       quantity_t(quantity_impact_load_maximum_drive, 'impact_load_maximum_drive', 'N', a_number, part_window, needs_impacts, &
-         'summary sweep campaign', &
-         'Largest load of an impact on the drive flank; 0: there is none.'), &
+         'summary sweep campaign', 'Largest load of an impact on the drive flank; 0: there is none.'), &
       quantity_t(quantity_impact_load_maximum_coast, 'impact_load_maximum_coast', 'N', a_number, part_window, needs_impacts, &
-         'summary flanks campaign', &
-         'Largest load of an impact on the coast flank; 0: there is none.'), &
+         'summary flanks campaign', 'Largest load of an impact on the coast flank; 0: there is none.'), &
       quantity_t(quantity_impact_velocity_maximum_drive, 'impact_velocity_maximum_drive', 'm/s', a_number, part_window, &
          needs_impacts, 'summary sweep campaign', &
          'Largest velocity at which the gear approaches the drive flank where its load passes F_max to an impact; 0: '// &
@@ -224,21 +202,16 @@ module quantities
          'Largest velocity at which the gear approaches the coast flank where its load passes F_max to an impact; 0: '// &
          'there is none.'), &
       quantity_t(quantity_impact_impulse_maximum_drive, 'impact_impulse_maximum_drive', 'N s', a_number, part_window, &
-         needs_impacts, &
-         'summary sweep campaign', &
+         needs_impacts, 'summary sweep campaign', &
          'Largest impulse of an impact on the drive flank: integral of its load while it exceeds F_max; 0: there is none.'), &
       quantity_t(quantity_impact_impulse_maximum_coast, 'impact_impulse_maximum_coast', 'N s', a_number, part_window, &
-         needs_impacts, &
-         'summary flanks campaign', &
+         needs_impacts, 'summary flanks campaign', &
          'Largest impulse of an impact on the coast flank: integral of its load while it exceeds F_max; 0: there is none.'), &
       quantity_t(quantity_impact_impulse_mean_drive, 'impact_impulse_mean_drive', 'N s', a_number, part_window, needs_impacts, &
-         'summary sweep campaign', &
-         'Mean impulse of the impacts on the drive flank; 0: there is none.'), &
+         'summary sweep campaign', 'Mean impulse of the impacts on the drive flank; 0: there is none.'), &
       quantity_t(quantity_impact_impulse_mean_coast, 'impact_impulse_mean_coast', 'N s', a_number, part_window, needs_impacts, &
-         'summary flanks campaign', &
-         'Mean impulse of the impacts on the coast flank; 0: there is none.'), &
-      quantity_t(quantity_double_sided, 'double_sided', '-', a_flag, part_window, needs_impacts, &
-         'summary flanks campaign log', &
+         'summary flanks campaign', 'Mean impulse of the impacts on the coast flank; 0: there is none.'), &
+      quantity_t(quantity_double_sided, 'double_sided', '-', a_flag, part_window, needs_impacts, 'summary flanks campaign log', &
          'Whether there are impacts on both flanks in the window.'), &
       quantity_t(quantity_verdict, 'verdict', '-', a_code, part_window, needs_impacts, 'summary sweep campaign', &
          'What the tooth does in its gap: separation is no impact, and impacts on one flank are not yet rattle between both.', &
@@ -254,8 +227,7 @@ module quantities
       quantity_t(quantity_impact_loads_drive, 'impact_loads_drive', 'N', a_list, part_window, needs_impacts, 'summary', &
          'Of the impacts of impact_times_drive: largest load.'), &
       quantity_t(quantity_impact_velocities_drive, 'impact_velocities_drive', 'm/s', a_list, part_window, needs_impacts, &
-      'summary', &
-         'Of the impacts of impact_times_drive: velocity at which the gear approaches where the load passes F_max.'), &
+         'summary', 'Of the impacts of impact_times_drive: velocity at which the gear approaches where the load passes F_max.'), &
       quantity_t(quantity_impact_impulses_drive, 'impact_impulses_drive', 'N s', a_list, part_window, needs_impacts, 'summary', &
          'Of the impacts of impact_times_drive: integral of the load while it exceeds F_max.'), &
       quantity_t(quantity_impact_times_coast, 'impact_times_coast', 's', a_list, part_window, needs_impacts, 'summary', &
@@ -263,8 +235,7 @@ module quantities
       quantity_t(quantity_impact_loads_coast, 'impact_loads_coast', 'N', a_list, part_window, needs_impacts, 'summary', &
          'Of the impacts of impact_times_coast: largest load.'), &
       quantity_t(quantity_impact_velocities_coast, 'impact_velocities_coast', 'm/s', a_list, part_window, needs_impacts, &
-      'summary', &
-         'Of the impacts of impact_times_coast: velocity at which the gear approaches where the load passes F_max.'), &
+         'summary', 'Of the impacts of impact_times_coast: velocity at which the gear approaches where the load passes F_max.'), &
       quantity_t(quantity_impact_impulses_coast, 'impact_impulses_coast', 'N s', a_list, part_window, needs_impacts, 'summary', &
          'Of the impacts of impact_times_coast: integral of the load while it exceeds F_max.')]
 
@@ -274,14 +245,11 @@ module quantities
          'summary campaign', &
          'Smallest gap that the gear leaves over the window, its teeth taken as unloaded: the film less what they give.'), &
       quantity_t(quantity_gear_position_maximum, 'gear_position_maximum', 'm', a_number, part_window, needs_position_range, &
-         'summary campaign', &
-         'Largest gap that the gear leaves over the window.'), &
+         'summary campaign', 'Largest gap that the gear leaves over the window.'), &
       quantity_t(quantity_model_limit, 'model_limit', '-', a_code, part_window, needs_film_range, 'summary sweep campaign', &
-         'Where the motion leaves what the model can mean.', &
-         'within|too_wide|too_narrow|too_wide_and_narrow'), &
+         'Where the motion leaves what the model can mean.', 'within|too_wide|too_narrow|too_wide_and_narrow'), &
       quantity_t(quantity_reversals_per_period, 'reversals_per_period', '-', a_number, part_window, needs_spectrum, &
-         'summary campaign', &
-         'Turns of the acceleration that stand out from the curve, a period of the force.'), &
+         'summary campaign', 'Turns of the acceleration that stand out from the curve, a period of the force.'), &
       quantity_t(quantity_harmonics, 'harmonics', 'm/s2', a_list, part_window, needs_spectrum, 'summary campaign', &
          'Amplitudes of the acceleration at multiples of the frequency of the force: 40 in a summary, harmonic_1 to 8 in a row.'), &
       quantity_t(quantity_first_harmonic, 'first_harmonic', 'm/s2', a_number, part_spectrum, needs_spectrum, 'sweep', &
@@ -289,26 +257,20 @@ module quantities
       quantity_t(quantity_harmonic_count, 'harmonic_count', '-', a_count, part_spectrum, needs_spectrum, 'summary sweep campaign', &
          'Harmonics above the harmonic threshold.'), &
       quantity_t(quantity_harmonic_count_is_bound, 'harmonic_count_is_bound', '-', a_flag, part_spectrum, needs_spectrum, &
-         'summary sweep campaign', &
-         'Whether there may be more harmonics beyond the highest that is resolved.'), &
+         'summary sweep campaign', 'Whether there may be more harmonics beyond the highest that is resolved.'), &
       quantity_t(quantity_harmonic_distortion, 'harmonic_distortion', '-', a_number, part_spectrum, needs_spectrum, &
-         'summary sweep campaign', &
-         'All harmonics from the second on over the first.'), &
+         'summary sweep campaign', 'All harmonics from the second on over the first.'), &
       quantity_t(quantity_harmonic_distortion_is_bound, 'harmonic_distortion_is_bound', '-', a_flag, part_spectrum, &
          needs_spectrum, 'summary sweep campaign', &
          'Whether harmonics beyond the highest that is resolved may add to harmonic_distortion.'), &
       quantity_t(quantity_irregular_fraction, 'irregular_fraction', '-', a_number, part_spectrum, needs_spectrum, &
-         'summary sweep campaign', &
-         'Share of the power that is off the harmonics.'), &
-      quantity_t(quantity_irregular_fraction_is_bound, 'irregular_fraction_is_bound', '-', a_flag, part_spectrum, &
-         needs_spectrum, 'summary sweep campaign', &
-         'Whether power beyond the highest harmonic that is resolved may add to irregular_fraction.'), &
+         'summary sweep campaign', 'Share of the power that is off the harmonics.'), &
+      quantity_t(quantity_irregular_fraction_is_bound, 'irregular_fraction_is_bound', '-', a_flag, part_spectrum, needs_spectrum, &
+         'summary sweep campaign', 'Whether power beyond the highest harmonic that is resolved may add to irregular_fraction.'), &
       quantity_t(quantity_sampling_sufficient, 'sampling_sufficient', '-', a_flag, part_spectrum, needs_spectrum, &
-         'summary campaign', &
-         'Whether the harmonics are those of the motion, not of too few samples.'), &
+         'summary campaign', 'Whether the harmonics are those of the motion, not of too few samples.'), &
       quantity_t(quantity_rattle_class, 'rattle_class', '-', a_code, part_class, needs_spectrum, 'summary sweep campaign', &
-         'Class of the motion by its spectrum.', &
-         'quiet|creep|idle|irregular|subharmonic|irregular_so_far', first_code=1), &
+         'Class of the motion by its spectrum.', 'quiet|creep|idle|irregular|subharmonic|irregular_so_far', first_code=1), &
       quantity_t(quantity_motions, 'motions', '-', a_count, part_class, needs_starts, 'summary campaign', &
          'Different motions that the starts of solver.starts lead to; 1 is no proof that there is no other.'), &
       quantity_t(quantity_starts_solved, 'starts_solved', '-', a_count, part_class, needs_starts, 'summary campaign', &
@@ -321,23 +283,18 @@ module quantities
          'Class of the motion with the largest acceleration_rms that a start leads to.', &
          'quiet|creep|idle|irregular|subharmonic|irregular_so_far', first_code=1), &
       quantity_t(quantity_loudest_verdict, 'loudest_verdict', '-', a_code, part_class, needs_motion_verdicts, 'summary campaign', &
-         'Its verdict, of separation and impacts.', &
-         'no separation|separation|single-sided impacts|double-sided impacts'), &
+         'Its verdict, of separation and impacts.', 'no separation|separation|single-sided impacts|double-sided impacts'), &
       quantity_t(quantity_loudest_acceleration_rms, 'loudest_acceleration_rms', 'm/s2', a_number, part_class, needs_starts, &
-         'summary campaign', &
-         'Its acceleration_rms.', digits=4), &
+         'summary campaign', 'Its acceleration_rms.', digits=4), &
       quantity_t(quantity_loudest_film_force_rms, 'loudest_film_force_rms', 'N', a_number, part_class, needs_starts, &
-         'summary campaign', &
-         'Its film_force_rms.', digits=4), &
+         'summary campaign', 'Its film_force_rms.', digits=4), &
       quantity_t(quantity_loudest_film_minimum, 'loudest_film_minimum', 'm', a_number, part_class, needs_starts, &
-         'summary campaign', &
-         'Its film_minimum.'), &
+         'summary campaign', 'Its film_minimum.'), &
       quantity_t(quantity_quietest_class, 'quietest_class', '-', a_code, part_class, needs_starts, 'summary campaign', &
          'Class of the motion with the smallest acceleration_rms that a start leads to.', &
          'quiet|creep|idle|irregular|subharmonic|irregular_so_far', first_code=1), &
       quantity_t(quantity_quietest_acceleration_rms, 'quietest_acceleration_rms', 'm/s2', a_number, part_class, needs_starts, &
-         'summary campaign', &
-         'Its acceleration_rms.', digits=4), &
+         'summary campaign', 'Its acceleration_rms.', digits=4), &
       quantity_t(quantity_motion_end, 'motion_end', '-', a_code, part_class, needs_starts, 'threshold', &
          'How the motions of a side end where they are followed: they lose stability, their side, or the range ends.', &
          'fold|period_doubling|torus|criterion|end_of_range|bracketed|lost', first_code=1), &
@@ -363,11 +320,9 @@ module quantities
       quantity_t(quantity_acceleration_error, 'acceleration_error', '-', a_number, part_errors, needs_verification, 'summary', &
          'Larger of both errors below, over the largest size of the acceleration.'), &
       quantity_t(quantity_acceleration_minimum_error, 'acceleration_minimum_error', 'm/s2', a_number, part_errors, &
-         needs_verification, 'summary', &
-         'Error of acceleration_minimum.'), &
+         needs_verification, 'summary', 'Error of acceleration_minimum.'), &
       quantity_t(quantity_acceleration_maximum_error, 'acceleration_maximum_error', 'm/s2', a_number, part_errors, &
-         needs_verification, 'summary', &
-         'Error of acceleration_maximum.'), &
+         needs_verification, 'summary', 'Error of acceleration_maximum.'), &
       quantity_t(quantity_severity_error, 'severity_error', '-', a_number, part_errors, needs_verification, 'summary', &
          'Largest relative error of acceleration_rms, acceleration_kurtosis, film_force_rms and dissipated_energy.'), &
       quantity_t(quantity_harmonic_errors, 'harmonic_errors', 'm/s2', a_list, part_errors, needs_verification, 'summary', &
@@ -400,12 +355,10 @@ module quantities
          'Deflection (4) of the teeth at the largest pressure.'), &
       quantity_t(quantity_deflection_share, 'deflection_share', '-', a_number, part_regime, needs_deflection, 'summary campaign', &
          'Deflection of the tooth as a share of the film, under the largest load; a rigid one as a steel tooth, 14 N/(um mm).'), &
-      quantity_t(quantity_stiffness_matters, 'stiffness_matters', '-', a_flag, part_regime, needs_deflection, &
-         'summary campaign', &
+      quantity_t(quantity_stiffness_matters, 'stiffness_matters', '-', a_flag, part_regime, needs_deflection, 'summary campaign', &
          'Whether deflection_share is above a tenth: rigid teeth are, or of elastic ones would be, no fair assumption.'), &
       quantity_t(quantity_film_regime, 'film_regime', '-', a_code, part_regime, needs_regime, 'summary campaign', &
-         'Regime of the film by its largest pressure.', &
-         'unknown|iso-viscous|piezo-viscous|elastohydrodynamic'), &
+         'Regime of the film by its largest pressure.', 'unknown|iso-viscous|piezo-viscous|elastohydrodynamic'), &
       quantity_t(quantity_law_contradicted, 'law_contradicted', '-', a_flag, part_regime, needs_regime, 'summary campaign', &
          'Whether the film law of the scene is not the one of its regime.'), &
       quantity_t(quantity_closure_range, 'closure_range', '-', a_code, part_regime, needs_closure_range, 'summary campaign', &
@@ -418,8 +371,7 @@ module quantities
          'Periods of the force that were solved.'), &
       quantity_t(quantity_evaluations, 'evaluations', '-', a_count, part_cost, needs_nothing, 'summary', &
          'Evaluations of the film.'), &
-      quantity_t(quantity_steps, 'steps', '-', a_count, part_cost, needs_nothing, 'summary', &
-         'Steps in time.'), &
+      quantity_t(quantity_steps, 'steps', '-', a_count, part_cost, needs_nothing, 'summary', 'Steps in time.'), &
       quantity_t(quantity_steps_cut, 'steps_cut', '-', a_count, part_cost, needs_nothing, 'summary', &
          'Steps that were cut where the film law had no value.'), &
       quantity_t(quantity_iterations_per_step, 'iterations_per_step', '-', a_number, part_cost, needs_nothing, 'summary', &

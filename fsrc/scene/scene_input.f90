@@ -1,7 +1,7 @@
 !> The input of one scene as typed values, one per line of the key table, each with its place.
 module scene_input
    use errors, only: fault_list_t
-   use former_names, only: present_key
+   use file_system, only: lies_inside
    use input_entry, only: continues_list, entry_t, new_entry, set_entry
    use input_key, only: integer_kind, key_t, real_kind
    use key_table, only: find_key, keys, known_group, nearest_group, nearest_key
@@ -23,6 +23,8 @@ module scene_input
       integer :: line_of_pair = 0
       !> What was found on the way from its files to its keys, as comments of the resolved input
       character(:), allocatable :: found
+      !> What is wrong with it
+      type(fault_list_t) :: faults
    contains
       procedure :: set_all
       procedure :: put_numbers
@@ -40,7 +42,10 @@ module scene_input
       procedure :: words => words_of
       procedure :: numbers => numbers_of
       procedure :: columns => columns_of
-      procedure :: add_fault
+      procedure :: file_path
+      procedure :: path_beside
+      procedure, private :: folder
+      procedure :: refuse
       procedure :: tell
    end type scene_input_t
 
@@ -70,7 +75,7 @@ contains
    end function new_scene_input
 
    !> Take the assignments of a text; later calls (overrides) replace earlier values.
-   subroutine set_all(self, assignments, file, overriding, faults)
+   subroutine set_all(self, assignments, file, overriding)
       class(scene_input_t), intent(inout) :: self
       !> Assignments in their order
       type(assignment_t), intent(in) :: assignments(:)
@@ -78,8 +83,6 @@ contains
       character(*), intent(in) :: file
       !> Whether a key may be set that an earlier call has set
       logical, intent(in) :: overriding
-      !> Faults are appended
-      type(fault_list_t), intent(inout) :: faults
       character(:), allocatable :: reported
       integer :: i, position
 
@@ -87,7 +90,7 @@ contains
       do i = 1, size(assignments)
          associate (assignment => assignments(i))
             if (.not. known_group(assignment%group)) then
-               if (assignment%group /= reported) call faults%add(file, assignment%line, assignment%group, '', &
+               if (assignment%group /= reported) call self%faults%add(file, assignment%line, assignment%group, '', &
                                                'unknown group; the nearest known group is &'//nearest_group(assignment%group))
                reported = assignment%group
                cycle
@@ -95,20 +98,19 @@ contains
             ! A key that is set on the command line is set in every pair.
             if (assignment%group == repeated_group .and. .not. overriding .and. assignment%occurrence /= self%pair) cycle
             if (len(assignment%key) == 0) cycle
-            position = find_key(assignment%group, present_key(assignment%group, assignment%key))
+            position = find_key(assignment%group//'.'//assignment%key)
             if (position == 0) then
-               if (assignment%sound) call faults%add(file, assignment%line, assignment%group, assignment%key, &
-                                                   'unknown key; '//nearest_key(assignment%group, assignment%key))
+               if (assignment%sound) call self%faults%add(file, assignment%line, assignment%group, assignment%key, &
+                                                          'unknown key; '//nearest_key(assignment%group, assignment%key))
                cycle
             end if
             if (self%entries(position)%given .and. .not. overriding .and. &
                 .not. continues_list(keys(position), assignment, self%entries(position))) then
-               call faults%add(file, assignment%line, assignment%group, assignment%key, &
-                               'this key is set in line '//integer_text(self%entries(position)%line)//' already')
+               call self%faults%add(file, assignment%line, assignment%group, assignment%key, &
+                                    'this key is set in line '//integer_text(self%entries(position)%line)//' already')
                cycle
             end if
-            call set_entry(keys(position), assignment, self%entries(position), file, faults)
-            if (assignment%key /= keys(position)%name) self%entries(position)%former = assignment%key
+            call set_entry(keys(position), assignment, self%entries(position), file, self%faults)
          end associate
       end do
    end subroutine set_all
@@ -133,12 +135,12 @@ contains
       class(scene_input_t), intent(in) :: self
       type(scene_t), intent(inout) :: scene
 
-      scene%film%law = self%choice('film', 'law')
-      scene%film%model = self%choice('film', 'model')
+      scene%film%law = self%choice('film.law')
+      scene%film%model = self%choice('film.model')
       scene%film%automatic = scene%film%model == model_automatic
       if (scene%film%automatic) scene%film%model = model_closure
-      scene%lubricant%viscosity_law = self%choice('lubricant', 'viscosity_law')
-      scene%contact%flattening_included = self%flag('contact', 'flattening_included')
+      scene%lubricant%viscosity_law = self%choice('lubricant.viscosity_law')
+      scene%contact%flattening_included = self%flag('contact.flattening_included')
    end subroutine put_laws
 
    !> Defaults that hang on other keys: gear pairs have their own, the elastohydrodynamic law its model, and no other law another
@@ -156,27 +158,27 @@ contains
          self%entries(i) = new_entry(key, self%file)
          self%entries(i)%line = line
       end do
-      if (self%word('film', 'law') == 'elastohydrodynamic') then
-         if (.not. self%is_given('film', 'model')) self%entries(find_key('film', 'model'))%word = 'closure'
-         i = find_key('solver', 'accuracy')
-         if (self%word('film', 'model') == 'resolved' .and. .not. self%entries(i)%given) then
+      if (self%word('film.law') == 'elastohydrodynamic') then
+         if (.not. self%is_given('film.model')) self%entries(find_key('film.model'))%word = 'closure'
+         i = find_key('solver.accuracy')
+         if (self%word('film.model') == 'resolved' .and. .not. self%entries(i)%given) then
             key = keys(i)
             key%default = '1.0e-3'
             self%entries(i) = new_entry(key, self%file)
          end if
       else
-         i = find_key('lubricant', 'viscosity_law')
+         i = find_key('lubricant.viscosity_law')
          if (.not. self%entries(i)%given) self%entries(i)%word = trim(keys(i)%default)
       end if
    end subroutine choose_defaults
 
    !> Whether the user set a key.
-   pure logical function is_given(self, group, name)
+   pure logical function is_given(self, key)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
 
-      is_given = self%entries(find_key(group, name))%given
+      is_given = self%entries(find_key(key))%given
    end function is_given
 
    !> Whether the user set any key of a group.
@@ -188,120 +190,153 @@ contains
    end function has_group
 
    !> Whether a key was set to something that could not be read, so that no rule can be held against it.
-   pure logical function is_faulty(self, group, name)
+   pure logical function is_faulty(self, key)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
 
-      is_faulty = self%entries(find_key(group, name))%faulty
+      is_faulty = self%entries(find_key(key))%faulty
    end function is_faulty
 
    !> Value of a real key, 0 where it has none.
-   pure real(dp) function number_of(self, group, name)
+   pure real(dp) function number_of(self, key)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
 
-      number_of = self%entries(find_key(group, name))%number
+      number_of = self%entries(find_key(key))%number
    end function number_of
 
    !> Value of an integer key.
-   pure integer function count_of(self, group, name)
+   pure integer function count_of(self, key)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
 
-      count_of = self%entries(find_key(group, name))%count
+      count_of = self%entries(find_key(key))%count
    end function count_of
 
    !> Value of a logical key.
-   pure logical function flag_of(self, group, name)
+   pure logical function flag_of(self, key)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
 
-      flag_of = self%entries(find_key(group, name))%flag
+      flag_of = self%entries(find_key(key))%flag
    end function flag_of
 
    !> Value of a text key, empty where it has none.
-   pure function word_of(self, group, name) result(word)
+   pure function word_of(self, key) result(word)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       character(:), allocatable :: word
 
-      word = self%entries(find_key(group, name))%word
+      word = self%entries(find_key(key))%word
    end function word_of
 
    !> Blank-separated words of a list key.
-   pure function words_of(self, group, name) result(words)
+   pure function words_of(self, key) result(words)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       character(:), allocatable :: words
 
-      words = self%entries(find_key(group, name))%words
+      words = self%entries(find_key(key))%words
    end function words_of
 
    !> Numbers of a list key.
-   pure function numbers_of(self, group, name) result(numbers)
+   pure function numbers_of(self, key) result(numbers)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       real(dp), allocatable :: numbers(:)
 
-      numbers = self%entries(find_key(group, name))%numbers
+      numbers = self%entries(find_key(key))%numbers
    end function numbers_of
 
    !> Columns of a table key.
-   pure function columns_of(self, group, name) result(columns)
+   pure function columns_of(self, key) result(columns)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       type(numbers_t), allocatable :: columns(:)
 
-      allocate (columns, source=self%entries(find_key(group, name))%columns)
+      allocate (columns, source=self%entries(find_key(key))%columns)
    end function columns_of
 
    !> Position of the word of a key among its choices in the table, from 1.
-   pure integer function choice_of(self, group, name)
+   pure integer function choice_of(self, key)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       integer :: position
 
-      position = find_key(group, name)
+      position = find_key(key)
       choice_of = word_position(trim(keys(position)%choices), self%entries(position)%word)
    end function choice_of
 
    !> Positions of the words of a list key among its choices in the table, from 1.
-   pure function choices_of(self, group, name) result(choices)
+   pure function choices_of(self, key) result(choices)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> As group.name
+      character(*), intent(in) :: key
       integer, allocatable :: choices(:)
       type(word_t), allocatable :: words(:)
       integer :: position, i
 
-      position = find_key(group, name)
+      position = find_key(key)
       allocate (words, source=split_words(self%entries(position)%words))
       choices = [(word_position(trim(keys(position)%choices), words(i)%text), i=1, size(words))]
    end function choices_of
 
-   !> Add a fault at the place of a key: where it was set, or without a line if it was not.
-   subroutine add_fault(self, group, name, message, faults)
+   !> Path of the file that a key names; empty, with a fault, if it lies elsewhere than in the folder of the input: an input and its
+   !> data move together.
+   function file_path(self, key) result(path)
+      class(scene_input_t), intent(inout) :: self
+      !> As group.name
+      character(*), intent(in) :: key
+      character(:), allocatable :: path
+
+      path = self%path_beside(self%word(key))
+      if (lies_inside(path, self%folder())) return
+      call self%refuse(key, 'the file lies outside the folder of this input; bring it there')
+      path = ''
+   end function file_path
+
+   !> A path as it is if it begins with the root, else from the folder of the input; empty stays empty.
+   pure function path_beside(self, given) result(path)
       class(scene_input_t), intent(in) :: self
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+      !> The path that the input names
+      character(*), intent(in) :: given
+      character(:), allocatable :: path
+
+      path = given
+      if (len(given) > 0 .and. index(given, '/') /= 1) path = self%folder()//given
+   end function path_beside
+
+   !> Folder of the input with a slash at its end; empty for the working folder.
+   pure function folder(self)
+      class(scene_input_t), intent(in) :: self
+      character(:), allocatable :: folder
+
+      folder = self%file(:index(self%file, '/', back=.true.))
+   end function folder
+
+   !> Add a fault at the place of a key: where it was set, or without a line if it was not.
+   subroutine refuse(self, key, message)
+      class(scene_input_t), intent(inout) :: self
+      !> As group.name
+      character(*), intent(in) :: key
       !> What is wrong and what is allowed
       character(*), intent(in) :: message
-      !> List to append to
-      type(fault_list_t), intent(inout) :: faults
+      integer :: position
 
-      associate (entry => self%entries(find_key(group, name)))
-         call faults%add(entry%file, entry%line, group, name, message)
+      position = find_key(key)
+      associate (entry => self%entries(position), known => keys(position))
+         call self%faults%add(entry%file, entry%line, trim(known%group), trim(known%name), message)
       end associate
-   end subroutine add_fault
+   end subroutine refuse
 
    !> Tell what was found in a file.
    pure subroutine tell(self, finding)

@@ -3,7 +3,6 @@
 module scene_reader
    use errors, only: fault_list_t, last_error, not_permitted
    use file_system, only: read_whole_file
-   use former_names, only: present_word, renamed_text
    use input_entry, only: numbers_text, place_of, value_text
    use input_key, only: name_limit, table_kind
    use key_table, only: find_key, keys, starts_group
@@ -53,7 +52,6 @@ contains
       type(fault_list_t), intent(inout) :: faults
       type(assignment_t), allocatable :: assignments(:)
       type(scene_input_t), allocatable :: inputs(:)
-      type(fault_list_t) :: own
       character(:), allocatable :: content, file
       integer :: stat, before, i
       logical :: is_input
@@ -84,20 +82,19 @@ contains
       deallocate (scenes)
       allocate (scenes(size(inputs)))
       do i = 1, size(inputs)
-         own = fault_list_t()
-         call set_all_keys(inputs(i), assignments, file, overrides, own)
+         call set_all_keys(inputs(i), assignments, file, overrides)
          allocate (scenes(i)%warnings(0))
          call inputs(i)%choose_defaults()
-         call take_signal(inputs(i), 'load', scenes(i)%warnings, own)
-         call take_signal(inputs(i), 'shaft', scenes(i)%warnings, own)
-         call take_drag_table(inputs(i), scenes(i)%gear, own)
-         call take_excitation_table(inputs(i), scenes(i)%shaft, own)
-         if (is_input) call check_together(inputs(i), own)
-         call read_name(inputs(i), path, scenes(i)%name, own)
-         call read_pair_name(inputs(i), scenes(:i), own)
+         call take_signal(inputs(i), 'load', scenes(i)%warnings)
+         call take_signal(inputs(i), 'shaft', scenes(i)%warnings)
+         call take_drag_table(inputs(i), scenes(i)%gear)
+         call take_excitation_table(inputs(i), scenes(i)%shaft)
+         if (is_input) call check_together(inputs(i))
+         call read_name(inputs(i), path, scenes(i)%name)
+         call read_pair_name(inputs(i), scenes(:i))
          scenes(i)%source = file
          ! What the pairs share is found wrong with each of them.
-         call faults%take(own)
+         call faults%take(inputs(i)%faults)
       end do
       call faults%sort_since(before)
       if (faults%count() > before) return
@@ -127,25 +124,24 @@ contains
    end subroutine begin_inputs
 
    !> Set the keys of the file, and those of the command line over them.
-   subroutine set_all_keys(input, assignments, file, overrides, faults)
+   subroutine set_all_keys(input, assignments, file, overrides)
       type(scene_input_t), intent(inout) :: input
       !> Of the file
       type(assignment_t), intent(in) :: assignments(:)
       character(*), intent(in) :: file
       type(override_t), intent(in) :: overrides(:)
-      type(fault_list_t), intent(inout) :: faults
       type(assignment_t), allocatable :: set(:)
       integer :: i
 
-      call input%set_all(assignments, file, .false., faults)
+      call input%set_all(assignments, file, .false.)
       do i = 1, size(overrides)
-         call scan_namelists(overrides(i)%text, overrides(i)%source, 0, set, faults)
+         call scan_namelists(overrides(i)%text, overrides(i)%source, 0, set, input%faults)
          ! The group itself counts as one; a value that goes on with keys or groups of its own sets more.
          if (size(set) > 2) then
-            call faults%add(overrides(i)%source, 0, '', '', 'one key is set at a time; give an option of its own to each')
+            call input%faults%add(overrides(i)%source, 0, '', '', 'one key is set at a time; give an option of its own to each')
             cycle
          end if
-         call input%set_all(set, overrides(i)%source, .true., faults)
+         call input%set_all(set, overrides(i)%source, .true.)
       end do
    end subroutine set_all_keys
 
@@ -154,7 +150,7 @@ contains
       type(scene_input_t), intent(in) :: input
       type(scene_t), intent(inout) :: scene
 
-      scene%task = input%choice('scene', 'task')
+      scene%task = input%choice('scene.task')
       call input%put_numbers(scene)
       call input%put_laws(scene)
       call read_choices(input, scene)
@@ -168,7 +164,7 @@ contains
       scene%output = read_output(input)
       scene%lines = input%entries%line
       scene%resolved_input = resolved_text(input, trim(scene%name))//input%found
-      scene%warnings = [scene%warnings, former_names_of_input(input), odd_numbers_of_input(input), odd_swings(input, scene%shaft), &
+      scene%warnings = [scene%warnings, odd_numbers_of_input(input), odd_swings(input, scene%shaft), &
                         published_film_of_gear(input)]
    end subroutine put_values
 
@@ -178,28 +174,10 @@ contains
       type(word_t), allocatable :: lines(:)
 
       allocate (lines(0))
-      if (.not. input%has_group('gear') .or. input%word('film', 'model') /= 'published') return
-      lines = [word_t('warning: '//place_of(input%entries(find_key('film', 'model')))//": the published films are those of the "// &
+      if (.not. input%has_group('gear') .or. input%word('film.model') /= 'published') return
+      lines = [word_t('warning: '//place_of(input%entries(find_key('film.model')))//": the published films are those of the "// &
                       "paper's scenes, and off by factors for gear pairs; leave &film model out, or take 'reynolds'")]
    end function published_film_of_gear
-
-   !> What is said of former names of keys and quantities in an input.
-   function former_names_of_input(input) result(lines)
-      type(scene_input_t), intent(in) :: input
-      type(word_t), allocatable :: lines(:)
-      character(:), allocatable :: present
-      integer :: i
-
-      allocate (lines(0))
-      do i = 1, size(keys)
-         associate (entry => input%entries(i))
-            if (len(entry%former) == 0) cycle
-            present = present_word(entry%former)
-            if (present == entry%former) present = trim(keys(i)%name)
-            lines = [lines, word_t('warning: '//place_of(entry)//': '//renamed_text(entry%former, present))]
-         end associate
-      end do
-   end function former_names_of_input
 
    !> How faults call an input.
    pure function input_name(path) result(name)
@@ -212,18 +190,17 @@ contains
    end function input_name
 
    !> &scene name: as given, or the stem of the file.
-   subroutine read_name(input, path, name, faults)
-      type(scene_input_t), intent(in) :: input
+   subroutine read_name(input, path, name)
+      type(scene_input_t), intent(inout) :: input
       character(*), intent(in) :: path
       character(*), intent(out) :: name
-      type(fault_list_t), intent(inout) :: faults
       character(:), allocatable :: stem
       integer :: dot
 
       name = ''
-      if (input%is_faulty('scene', 'name')) return
-      if (input%is_given('scene', 'name')) then
-         stem = input%word('scene', 'name')
+      if (input%is_faulty('scene.name')) return
+      if (input%is_given('scene.name')) then
+         stem = input%word('scene.name')
       else if (path == '-') then
          stem = 'standard-input'
       else
@@ -232,55 +209,53 @@ contains
          if (dot > 1) stem = stem(:dot - 1)
       end if
       name = stem
-      call check_name(input, 'scene', stem, faults)
+      call check_name(input, 'scene', stem)
    end subroutine read_name
 
    !> A name of files is of plain letters.
-   subroutine check_name(input, group, name, faults)
-      type(scene_input_t), intent(in) :: input
+   subroutine check_name(input, group, name)
+      type(scene_input_t), intent(inout) :: input
       !> Whose name it is
       character(*), intent(in) :: group
       character(*), intent(in) :: name
-      type(fault_list_t), intent(inout) :: faults
       character(*), parameter :: legal = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-'
 
       if (len(name) > name_limit .or. verify(name, legal) > 0 .or. name == '.' .or. name == '..') &
-         call input%add_fault(group, 'name', quoted(name(:min(len(name), 80)))//' is not allowed; allowed: 1 to '// &
-                              integer_text(name_limit)//' letters, digits, . _ -', faults)
+         call input%refuse(group//'.name', quoted(name(:min(len(name), 80)))//' is not allowed; allowed: 1 to '// &
+                           integer_text(name_limit)//' letters, digits, . _ -')
    end subroutine check_name
 
    !> &gear name. Several pairs need one each, which becomes the end of the names of their scenes; a campaign or threshold
    !> is one over all.
-   subroutine read_pair_name(input, scenes, faults)
-      type(scene_input_t), intent(in) :: input
+   subroutine read_pair_name(input, scenes)
+      type(scene_input_t), intent(inout) :: input
       !> Scenes of all pairs up to this one, the last
       type(scene_t), intent(inout) :: scenes(:)
-      type(fault_list_t), intent(inout) :: faults
       character(:), allocatable :: name
       integer :: i
       logical :: is_one_of_several
 
-      if (input%is_faulty('gear', 'name')) return
+      if (input%is_faulty('gear.name')) return
       is_one_of_several = input%line_of_pair > 0
-      name = input%word('gear', 'name')
+      name = input%word('gear.name')
       if (len(name) == 0) then
-         if (is_one_of_several) call input%add_fault('gear', 'name', 'several &gear stand here; each needs a name', faults)
+         if (is_one_of_several) call input%refuse('gear.name', 'several &gear stand here; each needs a name')
          return
       end if
       associate (scene => scenes(size(scenes)))
-         call check_name(input, 'gear', name, faults)
+         call check_name(input, 'gear', name)
          scene%gear%name = name
          if (.not. is_one_of_several) return
          do i = 1, size(scenes) - 1
             ! There are file systems that know no case.
             if (lower(trim(scenes(i)%gear%name)) /= lower(name)) cycle
-            call input%add_fault('gear', 'name', quoted(name)//' is also the name of an earlier &gear', faults)
+            call input%refuse('gear.name', quoted(name)//' is also the name of an earlier &gear')
             exit
          end do
-         if (len_trim(scene%name) + 1 + len(name) > name_limit) call input%add_fault('gear', 'name', 'the name of this pair, '// &
-            trim(scene%name)//'.'//name//', is longer than '//integer_text(name_limit)//' letters', faults)
+         if (len_trim(scene%name) + 1 + len(name) > name_limit) call input%refuse('gear.name', 'the name of this pair, '// &
+            trim(scene%name)//'.'//name//', is longer than '//integer_text(name_limit)//' letters')
          scene%gearbox = scene%name
-         if (input%word('scene', 'task') /= 'campaign' .and. input%word('scene', 'task') /= 'threshold') &
+         if (input%word('scene.task') /= 'campaign' .and. input%word('scene.task') /= 'threshold') &
             scene%name = trim(scene%name)//'.'//name
       end associate
    end subroutine read_pair_name
@@ -291,44 +266,44 @@ contains
       type(scene_t), intent(inout) :: scene
 
       associate (film => scene%film, solver => scene%solver, excitation => scene%excitation, spectrum => scene%spectrum)
-         if (input%is_given('load', 'force_orders')) then
-            excitation%force_orders = nint(input%numbers('load', 'force_orders'))
-            excitation%force_amplitudes = input%numbers('load', 'force_amplitudes')
+         if (input%is_given('load.force_orders')) then
+            excitation%force_orders = nint(input%numbers('load.force_orders'))
+            excitation%force_amplitudes = input%numbers('load.force_amplitudes')
             excitation%force_phases = 0.0_dp*excitation%force_amplitudes
-            if (input%is_given('load', 'force_phases')) excitation%force_phases = input%numbers('load', 'force_phases')
+            if (input%is_given('load.force_phases')) excitation%force_phases = input%numbers('load.force_phases')
             spectrum%forced = forced_orders(excitation%force_orders, excitation%force_amplitudes)
          end if
          if (allocated(scene%shaft%table)) then
             scene%shaft%orders = scene%shaft%table%orders
          else if (input%has_group('shaft')) then
-            scene%shaft%orders = input%numbers('shaft', 'orders')
-            if (input%is_given('shaft', 'accelerations')) scene%shaft%accelerations = input%numbers('shaft', 'accelerations')
-            if (input%is_given('shaft', 'speed_amplitudes')) &
-               scene%shaft%speed_amplitudes = input%numbers('shaft', 'speed_amplitudes')
+            scene%shaft%orders = input%numbers('shaft.orders')
+            if (input%is_given('shaft.accelerations')) scene%shaft%accelerations = input%numbers('shaft.accelerations')
+            if (input%is_given('shaft.speed_amplitudes')) &
+               scene%shaft%speed_amplitudes = input%numbers('shaft.speed_amplitudes')
             scene%shaft%phases = 0.0_dp*scene%shaft%orders
-            if (input%is_given('shaft', 'phases')) scene%shaft%phases = input%numbers('shaft', 'phases')
+            if (input%is_given('shaft.phases')) scene%shaft%phases = input%numbers('shaft.phases')
          end if
-         scene%oil%base = input%choice('oil', 'base')
-         film%nodes = input%count('film', 'nodes')
-         film%rupture = input%choice('film', 'rupture')
-         film%rupture_solver = input%choice('film', 'rupture_solver')
-         solver%method = input%choice('solver', 'method')
-         solver%iteration = input%choice('solver', 'iteration')
-         solver%predictor = input%choice('solver', 'predictor')
-         solver%tolerance = input%number('solver', 'tolerance')
-         solver%iteration_limit = input%count('solver', 'iteration_limit')
-         solver%steps_per_period = input%count('solver', 'steps_per_period')
-         solver%kept_per_period = input%count('solver', 'samples_per_period')
-         solver%until = input%choice('solver', 'until')
+         scene%oil%base = input%choice('oil.base')
+         film%nodes = input%count('film.nodes')
+         film%rupture = input%choice('film.rupture')
+         film%rupture_solver = input%choice('film.rupture_solver')
+         solver%method = input%choice('solver.method')
+         solver%iteration = input%choice('solver.iteration')
+         solver%predictor = input%choice('solver.predictor')
+         solver%tolerance = input%number('solver.tolerance')
+         solver%iteration_limit = input%count('solver.iteration_limit')
+         solver%steps_per_period = input%count('solver.steps_per_period')
+         solver%kept_per_period = input%count('solver.samples_per_period')
+         solver%until = input%choice('solver.until')
          solver%starts = 1
-         if (in_use(input, find_key('solver', 'starts'))) then
+         if (in_use(input, find_key('solver.starts'))) then
             solver%starts = merge(starts_of_motion, starts_of_campaign, scene%task == task_motion)
-            if (input%is_given('solver', 'starts')) solver%starts = input%count('solver', 'starts')
+            if (input%is_given('solver.starts')) solver%starts = input%count('solver.starts')
             if (film%model == model_resolved) solver%starts = 1
          end if
-         solver%time_limit = input%number('solver', 'time_limit')
-         spectrum%verify = input%flag('spectrum', 'verify')
-         spectrum%verification_tolerance = input%number('spectrum', 'verification_tolerance')
+         solver%time_limit = input%number('solver.time_limit')
+         spectrum%verify = input%flag('spectrum.verify')
+         spectrum%verification_tolerance = input%number('spectrum.verification_tolerance')
       end associate
    end subroutine read_choices
 
@@ -338,18 +313,18 @@ contains
       type(output_t) :: output
       integer :: i
 
-      output%directory = input%word('output', 'directory')
-      output%series = input%flag('output', 'series')
-      output%overwrite = input%flag('output', 'overwrite')
-      output%profiles = in_use(input, find_key('output', 'profiles')) .and. input%flag('output', 'profiles')
-      if (input%is_given('output', 'profile_phases')) output%profile_phases = input%numbers('output', 'profile_phases')
-      if (input%is_given('output', 'profile_count')) then
-         associate (n => input%count('output', 'profile_count'))
+      output%directory = input%word('output.directory')
+      output%series = input%flag('output.series')
+      output%overwrite = input%flag('output.overwrite')
+      output%profiles = in_use(input, find_key('output.profiles')) .and. input%flag('output.profiles')
+      if (input%is_given('output.profile_phases')) output%profile_phases = input%numbers('output.profile_phases')
+      if (input%is_given('output.profile_count')) then
+         associate (n => input%count('output.profile_count'))
             output%profile_phases = [(real(i, dp)/real(n, dp), i=1, n)]
          end associate
       end if
-      allocate (output%columns, source=input%choices('output', 'columns'))
-      output%stride = input%count('output', 'stride')
+      allocate (output%columns, source=input%choices('output.columns'))
+      output%stride = input%count('output.stride')
    end function read_output
 
    !> All keys that have a value and are in use, as namelist text. Where the files go is no property
@@ -391,11 +366,10 @@ contains
          if (keys(i)%group == 'output') is_told = is_told .and. keys(i)%name /= 'directory' .and. keys(i)%name /= 'overwrite'
          ! The key matters to elastic flanks.
          if (keys(i)%name == 'flattening_included') &
-            is_told = is_told .and. (input%is_given('contact', 'stiffness') .or. input%word('film', 'law') == 'elastohydrodynamic' &
-                                     .or. input%number('gear', 'tooth_stiffness') > 0.0_dp)
+            is_told = is_told .and. (input%is_given('contact.stiffness') .or. input%word('film.law') == 'elastohydrodynamic' &
+                                     .or. input%number('gear.tooth_stiffness') > 0.0_dp)
          ! In a film task the absent model means more than its default.
-         if (keys(i)%name == 'model') &
-            is_told = is_told .and. (input%entries(i)%given .or. input%word('scene', 'task') /= 'film')
+         if (keys(i)%name == 'model') is_told = is_told .and. (input%entries(i)%given .or. input%word('scene.task') /= 'film')
       end function is_told
 
    end function resolved_text

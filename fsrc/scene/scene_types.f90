@@ -449,9 +449,13 @@ contains
       logical, intent(out), optional :: known
 
       if (present(known)) known = .true.
+      if (group == 'gear' .and. name /= 'name') then
+         call set_number_of_gear(scene%gear, name, value, known)
+         return
+      end if
       associate (contact => scene%contact, lubricant => scene%lubricant, kinematics => scene%kinematics, &
-                 excitation => scene%excitation, film => scene%film, &
-                 solver => scene%solver, spectrum => scene%spectrum, gear => scene%gear, oil => scene%oil)
+                 excitation => scene%excitation, film => scene%film, solver => scene%solver, spectrum => scene%spectrum, &
+                 oil => scene%oil)
          select case (trim(group)//'.'//name)
          case ('contact.radius')
             contact%radius = value
@@ -499,59 +503,7 @@ contains
             excitation%gravity = value
          case ('gear.name')
             ! The key that stands for the whole pair.
-            if (allocated(scene%pairs)) gear = scene%pairs(nint(value))
-         case ('gear.teeth_1')
-            gear%teeth_1 = nint(value)
-         case ('gear.teeth_2')
-            gear%teeth_2 = nint(value)
-         case ('gear.normal_module')
-            gear%normal_module = value
-         case ('gear.pressure_angle_deg')
-            gear%pressure_angle_deg = value
-         case ('gear.helix_angle_deg')
-            gear%helix_angle_deg = value
-         case ('gear.face_width')
-            gear%face_width = value
-         case ('gear.centre_distance')
-            gear%centre_distance = value
-         case ('gear.contact_position')
-            gear%contact_position = value
-         case ('gear.contact_lines')
-            gear%contact_lines = value
-         case ('gear.loose_inertia')
-            gear%loose_inertia = value
-         case ('gear.drag_torque')
-            gear%drag_torque = value
-         case ('gear.drag_scale')
-            gear%drag_scale = value
-         case ('gear.tip_diameter_1')
-            gear%tip_diameter_1 = value
-         case ('gear.tip_diameter_2')
-            gear%tip_diameter_2 = value
-         case ('gear.bearing_mean_diameter')
-            gear%bearing_mean_diameter = value
-         case ('gear.bearing_factor')
-            gear%bearing_factor = value
-         case ('gear.bearing_width')
-            gear%bearing_width = value
-         case ('gear.bearing_clearance')
-            gear%bearing_clearance = value
-         case ('gear.synchroniser_cones')
-            gear%synchroniser_cones = nint(value)
-         case ('gear.synchroniser_diameter')
-            gear%synchroniser_diameter = value
-         case ('gear.synchroniser_width')
-            gear%synchroniser_width = value
-         case ('gear.synchroniser_gap')
-            gear%synchroniser_gap = value
-         case ('gear.immersion_depth')
-            gear%immersion_depth = value
-         case ('gear.own_shaft_ratio')
-            gear%own_shaft_ratio = value
-         case ('gear.backlash')
-            gear%backlash = value
-         case ('gear.tooth_stiffness')
-            gear%tooth_stiffness = value
+            if (allocated(scene%pairs)) scene%gear = scene%pairs(nint(value))
          case ('shaft.speed_rpm')
             scene%shaft%speed_rpm = value
          case ('oil.viscosity_40_cst')
@@ -591,6 +543,74 @@ contains
          end select
       end associate
    end subroutine set_number
+
+   !> Set a number of a gear pair.
+   pure subroutine set_number_of_gear(gear, name, value, known)
+      type(gear_t), intent(inout) :: gear
+      !> The key in the group
+      character(*), intent(in) :: name
+      !> In the unit of the key
+      real(dp), intent(in) :: value
+      !> .false. if there is no such number
+      logical, intent(inout), optional :: known
+
+      select case (name)
+      case ('teeth_1')
+         gear%teeth_1 = nint(value)
+      case ('teeth_2')
+         gear%teeth_2 = nint(value)
+      case ('normal_module')
+         gear%normal_module = value
+      case ('pressure_angle_deg')
+         gear%pressure_angle_deg = value
+      case ('helix_angle_deg')
+         gear%helix_angle_deg = value
+      case ('face_width')
+         gear%face_width = value
+      case ('centre_distance')
+         gear%centre_distance = value
+      case ('contact_position')
+         gear%contact_position = value
+      case ('contact_lines')
+         gear%contact_lines = value
+      case ('loose_inertia')
+         gear%loose_inertia = value
+      case ('drag_torque')
+         gear%drag_torque = value
+      case ('drag_scale')
+         gear%drag_scale = value
+      case ('tip_diameter_1')
+         gear%tip_diameter_1 = value
+      case ('tip_diameter_2')
+         gear%tip_diameter_2 = value
+      case ('bearing_mean_diameter')
+         gear%bearing_mean_diameter = value
+      case ('bearing_factor')
+         gear%bearing_factor = value
+      case ('bearing_width')
+         gear%bearing_width = value
+      case ('bearing_clearance')
+         gear%bearing_clearance = value
+      case ('synchroniser_cones')
+         gear%synchroniser_cones = nint(value)
+      case ('synchroniser_diameter')
+         gear%synchroniser_diameter = value
+      case ('synchroniser_width')
+         gear%synchroniser_width = value
+      case ('synchroniser_gap')
+         gear%synchroniser_gap = value
+      case ('immersion_depth')
+         gear%immersion_depth = value
+      case ('own_shaft_ratio')
+         gear%own_shaft_ratio = value
+      case ('backlash')
+         gear%backlash = value
+      case ('tooth_stiffness')
+         gear%tooth_stiffness = value
+      case default
+         if (present(known)) known = .false.
+      end select
+   end subroutine set_number_of_gear
 
    !> At which orders harmonics are forced: those of at least a hundredth of the largest amplitude of the force.
    pure function forced_orders(orders, amplitudes) result(forced)

@@ -4,9 +4,7 @@ module signal_reader
    use axis_unit, only: no_axis
    use constants, only: two_pi
    use csv_signal, only: read_csv_signal, recording_t
-   use errors, only: fault_list_t
    use fourier, only: trigonometric_interpolation
-   use input_path, only: path_of_file
    use key_table, only: find_key
    use keys_in_use, only: in_use
    use kinds, only: dp
@@ -27,215 +25,249 @@ module signal_reader
    !> Codes of signal_kind, in the order of the key table: 2 is a speed in rad/s.
    integer, parameter :: kind_acceleration = 1, kind_speed_rpm = 3
 
+   !> What is made of a signal.
+   type :: signal_t
+      !> 'load' or 'shaft'
+      character(:), allocatable :: group
+      character(:), allocatable :: path
+      type(recording_t) :: recording
+      !> Cycles of the recording, and what tells them
+      integer :: cycles = 0
+      character(:), allocatable :: counted_by
+      !> Root mean square by which the cycles differ from their mean, over that of what oscillates of it
+      real(dp) :: scatter = 0.0_dp
+      !> The mean cycle
+      real(dp), allocatable :: samples(:)
+      !> Its mean, and of each order amplitude and phase; and what is like the force of each, by a factor
+      real(dp) :: mean = 0.0_dp
+      real(dp), allocatable :: orders(:), amplitudes(:), phases(:), forces(:)
+      !> Key of the amplitudes, their unit, and what becomes of the mean
+      character(:), allocatable :: amplitude_key, unit, fate
+   end type signal_t
+
    public :: take_signal
 
 contains
 
    !> Put what the signal of a group gives into its keys, and the keys of the signal away.
-   subroutine take_signal(input, group, notes, faults)
+   subroutine take_signal(input, group, notes)
       !> Typed values
       type(scene_input_t), intent(inout) :: input
       !> 'load' or 'shaft'
       character(*), intent(in) :: group
       !> A line on what was made of the signal is appended
       type(word_t), allocatable, intent(inout) :: notes(:)
-      !> Faults are appended
-      type(fault_list_t), intent(inout) :: faults
       character(len(force_keys)), allocatable :: shape_keys(:), keys(:)
-      type(recording_t) :: recording
-      real(dp), allocatable :: samples(:), orders(:), amplitudes(:), phases(:), forces(:)
-      character(:), allocatable :: path, unit, fate, what, told, amplitude_key
-      real(dp) :: mean, dropped, scatter
-      integer :: i, before, last, cycles
+      type(signal_t) :: signal
+      integer :: i, before, last
 
-      allocate (shape_keys(merge(size(force_keys), size(motion_keys), group == 'load')))
-      shape_keys(:4) = motion_keys
+      allocate (shape_keys, source=motion_keys)
       if (group == 'load') shape_keys = force_keys
-      what = trim(merge('the force ', 'the motion', group == 'load'))
       keys = signal_keys(:merge(4, 6, group == 'load'))
-      if (.not. input%is_given(group, 'signal')) then
+      if (.not. input%is_given(group//'.signal')) then
          do i = 2, size(keys)
-            if (input%is_given(group, trim(keys(i)))) &
-               call input%add_fault(group, trim(keys(i)), 'this key is used only with signal; leave it out', faults)
-            input%entries(find_key(group, trim(keys(i))))%present = .false.
+            if (input%is_given(group//'.'//keys(i))) &
+               call input%refuse(group//'.'//keys(i), 'this key is used only with signal; leave it out')
+            input%entries(find_key(group//'.'//keys(i)))%present = .false.
          end do
          return
       end if
-      before = faults%count()
+      before = input%faults%count()
       do i = 1, size(shape_keys)
-         if (input%is_given(group, trim(shape_keys(i)))) call input%add_fault(group, trim(shape_keys(i)), &
-            'the signal gives '//what//'; leave this key or the signal out', faults)
+         if (input%is_given(group//'.'//shape_keys(i))) call input%refuse(group//'.'//shape_keys(i), 'the signal gives '// &
+            trim(merge('the force ', 'the motion', group == 'load'))//'; leave this key or the signal out')
       end do
-      if (.not. in_use(input, find_key(group, 'signal'))) return
-      ! Until the signal is read no rule is held against what it gives.
-      if (group == 'shaft') input%entries([(find_key(group, trim(shape_keys(i))), i=1, 2)])%given = .true.
-      if (group == 'shaft') input%entries([(find_key(group, trim(shape_keys(i))), i=1, 2)])%faulty = .true.
-      if (any([(input%is_faulty(group, trim(keys(i))), i=1, size(keys))])) return
-      path = path_of_file(input, group, 'signal', faults)
-      if (len(path) == 0) return
-      call read_csv_signal(path, input%word(group, 'signal_column'), recording, faults)
-      if (faults%count() == before) call count_cycles(input, group, path, recording, cycles, told, faults)
-      ! A cycle that is not known is so by a fault of the input, which is told in its place.
-      if (faults%count() > before .or. cycles == 0) return
-      call average()
-      if (faults%count() > before) return
-      call trigonometric_interpolation(samples, mean, amplitudes, phases)
-      orders = [(real(i, dp), i=1, size(amplitudes))]
-      ! The force of each order, by a factor.
-      forces = amplitudes
-      unit = ' N'
-      fate = 'is added to steady_force'
-      amplitude_key = shape_keys(2)
-      if (group == 'shaft') call shaft_motion()
-      if (.not. maxval(forces) > 0.0_dp) then
-         call faults%add(path, 0, '', '', 'it has too few samples to be differentiated')
+      if (.not. in_use(input, find_key(group//'.signal'))) return
+      call read_signal(input, group, shape_keys(:2), keys, signal)
+      ! A count of cycles that is not known is so by a fault of the input, which stands in its place.
+      if (input%faults%count() > before .or. signal%cycles == 0) return
+      call average_cycles(input, signal)
+      if (input%faults%count() > before) return
+      call find_orders(input, signal)
+      if (.not. maxval(signal%forces) > 0.0_dp) then
+         call input%faults%add(signal%path, 0, '', '', 'it has too few samples to be differentiated')
          return
       end if
-      last = kept_orders()
-      dropped = dropped_share(last)
-      notes = [notes, note()]
-      if (cycles > 1) call input%tell(group//'.signal_cycles = '//integer_text(cycles))
-      if (cycles > 1) call input%tell(group//'.signal_scatter = '//short_text(scatter, 5))
-      call put(shape_keys(1), orders(:last))
-      call put(amplitude_key, amplitudes(:last))
-      call put(shape_keys(3), phases(:last))
+      last = kept_orders(input, signal)
+      notes = [notes, note_of(signal, last)]
+      if (signal%cycles > 1) call input%tell(group//'.signal_cycles = '//integer_text(signal%cycles))
+      if (signal%cycles > 1) call input%tell(group//'.signal_scatter = '//short_text(signal%scatter, 5))
+      call put(input, group, shape_keys(1), signal%orders(:last))
+      call put(input, group, signal%amplitude_key, signal%amplitudes(:last))
+      call put(input, group, shape_keys(3), signal%phases(:last))
       if (group == 'load') then
-         associate (entry => input%entries(find_key('load', 'force_mean')))
+         associate (entry => input%entries(find_key('load.force_mean')))
             entry%given = .true.
             entry%present = .true.
-            entry%number = mean
+            entry%number = signal%mean
          end associate
       end if
       do i = 1, size(keys)
-         associate (entry => input%entries(find_key(group, trim(keys(i)))))
-            entry%given = .false.
-            entry%present = .false.
-         end associate
+         input%entries(find_key(group//'.'//keys(i)))%given = .false.
+         input%entries(find_key(group//'.'//keys(i)))%present = .false.
       end do
+   end subroutine take_signal
 
-   contains
+   !> Read the recording and count its cycles; none where the input or the file has a fault.
+   subroutine read_signal(input, group, shape_keys, keys, signal)
+      type(scene_input_t), intent(inout) :: input
+      character(*), intent(in) :: group
+      !> Keys of the orders and their amplitudes
+      character(*), intent(in) :: shape_keys(2)
+      !> Keys of the signal
+      character(*), intent(in) :: keys(:)
+      type(signal_t), intent(inout) :: signal
+      integer :: i, before
 
-      !> From the recording to its mean cycle, which must be one, and of which the cycles must be repetitions.
-      subroutine average()
-         !> What a mean of the cycles may be uncertain by, of what it is; and what they may drift by [samples]
-         real(dp), parameter :: most_uncertain = 0.5_dp, most_drift = 0.5_dp
-         character(:), allocatable :: message, words
-         real(dp) :: drift
+      ! Until the signal is read no rule is held against what it gives.
+      if (group == 'shaft') input%entries([(find_key(group//'.'//shape_keys(i)), i=1, 2)])%given = .true.
+      if (group == 'shaft') input%entries([(find_key(group//'.'//shape_keys(i)), i=1, 2)])%faulty = .true.
+      if (any([(input%is_faulty(group//'.'//keys(i)), i=1, size(keys))])) return
+      signal%group = group
+      signal%path = input%file_path(group//'.signal')
+      if (len(signal%path) == 0) return
+      before = input%faults%count()
+      call read_csv_signal(signal%path, input%word(group//'.signal_column'), signal%recording, input%faults)
+      if (input%faults%count() == before) &
+         call count_cycles(input, group, signal%path, signal%recording, signal%cycles, signal%counted_by)
+   end subroutine read_signal
 
-         samples = mean_cycle(recording%samples, cycles)
+   !> From the recording to its mean cycle, which must be one, and of which the cycles must be repetitions.
+   subroutine average_cycles(input, signal)
+      type(scene_input_t), intent(inout) :: input
+      type(signal_t), intent(inout) :: signal
+      !> What a mean of the cycles may be uncertain by, of what it is; and what they may drift by [samples]
+      real(dp), parameter :: most_uncertain = 0.5_dp, most_drift = 0.5_dp
+      character(:), allocatable :: message, words, cycle_keys
+      real(dp) :: drift, most_scatter
+
+      associate (cycles => signal%cycles, recording => signal%recording)
+         signal%samples = mean_cycle(recording%samples, cycles)
          message = ''
          if (cycles > 1) then
             ! Of cycles that cancel each other nothing oscillates.
-            scatter = huge(1.0_dp)
-            if (maxval(samples) > minval(samples)) scatter = cycle_scatter(recording%samples, samples)
-            drift = drift_of_cycles(recording%samples, samples)
-            words = 'its '//integer_text(cycles)//' cycles ('//told//') '
-            if (scatter > most_uncertain*sqrt(real(cycles, dp))) then
-               message = words//'are no repetitions: their rms deviation from their mean is '//short_text(scatter, 3)// &
-                         ' times the rms of what oscillates of it, at most '// &
-                         short_text(most_uncertain*sqrt(real(cycles, dp)), 3)//' is allowed; '//cycle_keys()
+            signal%scatter = huge(1.0_dp)
+            if (maxval(signal%samples) > minval(signal%samples)) &
+               signal%scatter = cycle_scatter(recording%samples, signal%samples)
+            drift = drift_of_cycles(recording%samples, signal%samples)
+            most_scatter = most_uncertain*sqrt(real(cycles, dp))
+            words = 'its '//integer_text(cycles)//' cycles ('//signal%counted_by//') '
+            cycle_keys = 'signal_cycles and '//trim(merge('frequency        ', 'cycle_revolutions', signal%group == 'load'))// &
+                         ' say what a cycle is'
+            if (signal%scatter > most_scatter) then
+               message = words//'are no repetitions: their rms deviation from their mean is '//short_text(signal%scatter, 3)// &
+                         ' times the rms of what oscillates of it, at most '//short_text(most_scatter, 3)//' is allowed; '// &
+                         cycle_keys
             else if (abs(drift) > most_drift) then
                message = words//'do not line up: from the first to the last they drift by '//short_text(abs(drift), 3)// &
-                         ' of '//integer_text(size(samples))//' samples, half a sample is allowed; '//cycle_keys()
+                         ' of '//integer_text(size(signal%samples))//' samples, half a sample is allowed; '//cycle_keys
             end if
          end if
-         if (len(message) == 0) message = fault_of_cycle(samples, recording%axis_unit%kind == no_axis .and. cycles == 1)
-         if (len(message) > 0) call faults%add(path, recording%lines(size(recording%lines)), '', '', message)
-      end subroutine average
+         if (len(message) == 0) message = fault_of_cycle(signal%samples, recording%axis_unit%kind == no_axis .and. cycles == 1)
+         if (len(message) > 0) &
+            call input%faults%add(signal%path, recording%lines(size(recording%lines)), '', '', message)
+      end associate
+   end subroutine average_cycles
 
-      !> The keys that say what a cycle is.
-      function cycle_keys() result(words)
-         character(:), allocatable :: words
+   !> Orders, amplitudes and phases of the mean cycle. The signal of a shaft is its angular acceleration or speed; a speed is
+   !> differentiated where the scene is derived, at the speed_rpm that it has there.
+   subroutine find_orders(input, signal)
+      type(scene_input_t), intent(inout) :: input
+      type(signal_t), intent(inout) :: signal
+      logical :: in_rpm
+      integer :: i
 
-         words = 'signal_cycles and '//trim(merge('frequency        ', 'cycle_revolutions', group == 'load'))// &
-                 ' say what a cycle is'
-      end function cycle_keys
+      call trigonometric_interpolation(signal%samples, signal%mean, signal%amplitudes, signal%phases)
+      signal%orders = [(real(i, dp), i=1, size(signal%amplitudes))]
+      signal%forces = signal%amplitudes
+      signal%amplitude_key = 'force_amplitudes'
+      signal%unit = ' N'
+      signal%fate = 'is added to steady_force'
+      if (signal%group == 'load') return
+      signal%orders = signal%orders/real(input%count('shaft.cycle_revolutions'), dp)
+      signal%amplitude_key = 'accelerations'
+      signal%unit = ' rad/s2'
+      signal%fate = 'is left out'
+      if (input%choice('shaft.signal_kind') == kind_acceleration) return
+      input%entries(find_key('shaft.accelerations'))%given = .false.
+      input%entries(find_key('shaft.accelerations'))%faulty = .false.
+      in_rpm = input%choice('shaft.signal_kind') == kind_speed_rpm
+      signal%amplitude_key = 'speed_amplitudes'
+      signal%amplitudes = signal%amplitudes*merge(two_pi/60.0_dp, 1.0_dp, in_rpm)
+      ! Of the order at half the samples the signs alone are known, not its phase.
+      if (modulo(size(signal%samples), 2) == 0) signal%amplitudes(size(signal%amplitudes)) = 0.0_dp
+      signal%forces = signal%amplitudes*signal%orders
+      signal%unit = trim(merge(' 1/min', ' rad/s', in_rpm))
+      signal%fate = 'is replaced by speed_rpm'
+   end subroutine find_orders
 
-      !> From the signal of a shaft to the amplitudes of its angular acceleration or speed. A speed is differentiated where the
-      !> scene is derived, at the speed_rpm that it has there.
-      subroutine shaft_motion()
-         orders = orders/real(input%count('shaft', 'cycle_revolutions'), dp)
-         unit = ' rad/s2'
-         fate = 'is left out'
-         if (input%choice('shaft', 'signal_kind') == kind_acceleration) return
-         input%entries(find_key('shaft', 'accelerations'))%given = .false.
-         input%entries(find_key('shaft', 'accelerations'))%faulty = .false.
-         amplitude_key = 'speed_amplitudes'
-         amplitudes = amplitudes*merge(two_pi/60.0_dp, 1.0_dp, input%choice('shaft', 'signal_kind') == kind_speed_rpm)
-         ! Of the order at half the samples the signs alone are known, not its phase.
-         if (modulo(size(samples), 2) == 0) amplitudes(size(amplitudes)) = 0.0_dp
-         forces = amplitudes*orders
-         unit = ' rad/s'
-         if (input%choice('shaft', 'signal_kind') == kind_speed_rpm) unit = ' 1/min'
-         fate = 'is replaced by speed_rpm'
-      end subroutine shaft_motion
+   !> How many orders are kept: what was requested, or what holds nearly all of the power.
+   pure integer function kept_orders(input, signal)
+      type(scene_input_t), intent(in) :: input
+      type(signal_t), intent(in) :: signal
+      real(dp), parameter :: most_dropped = 1.0e-6_dp
 
-      !> How many orders are kept: what was asked for, or what holds nearly all of the power.
-      integer function kept_orders()
-         real(dp), parameter :: most_dropped = 1.0e-6_dp
+      if (input%is_given(signal%group//'.signal_orders')) then
+         kept_orders = min(input%count(signal%group//'.signal_orders'), size(signal%amplitudes))
+         return
+      end if
+      do kept_orders = 1, min(size(signal%amplitudes), highest_order) - 1
+         if (dropped_share(signal%forces, kept_orders) <= most_dropped) return
+      end do
+   end function kept_orders
 
-         if (input%is_given(group, 'signal_orders')) then
-            kept_orders = min(input%count(group, 'signal_orders'), size(amplitudes))
-            return
-         end if
-         do kept_orders = 1, min(size(amplitudes), highest_order) - 1
-            if (dropped_share(kept_orders) <= most_dropped) return
-         end do
-      end function kept_orders
+   !> Share of the power of what oscillates that lies beyond an order [-].
+   pure real(dp) function dropped_share(forces, kept)
+      real(dp), intent(in) :: forces(:)
+      integer, intent(in) :: kept
 
-      !> Share of the power of what oscillates that lies beyond an order [-].
-      real(dp) function dropped_share(kept)
-         integer, intent(in) :: kept
+      dropped_share = sum((forces(kept + 1:)/maxval(forces))**2)/sum((forces/maxval(forces))**2)
+   end function dropped_share
 
-         dropped_share = sum((forces(kept + 1:)/maxval(forces))**2)/sum((forces/maxval(forces))**2)
-      end function dropped_share
+   !> What was made of the signal. Orders of a force are harmonics of its frequency, those of a shaft engine orders.
+   type(word_t) function note_of(signal, last) result(note)
+      type(signal_t), intent(in) :: signal
+      !> Orders that are kept
+      integer, intent(in) :: last
+      character(:), allocatable :: words
 
-      !> What was made of the signal.
-      type(word_t) function note()
-         character(:), allocatable :: words
+      words = ''
+      if (signal%cycles > 1) words = 'in '//integer_text(signal%cycles)//' cycles of '//integer_text(size(signal%samples))// &
+                                     ', whose rms deviation from their mean is '//short_text(100.0_dp*signal%scatter, 3)// &
+                                     ' % of the rms of what oscillates of it; '
+      note%text = 'signal '//printable(signal%path, .false.)//", column '"//signal%recording%column//"': "// &
+                  integer_text(size(signal%recording%samples))//' samples; '//words// &
+                  trim(merge('harmonics    ', 'engine orders', signal%group == 'load'))//' '//order_text(signal%orders(1))// &
+                  ' to '//order_text(signal%orders(last))//' are kept, '// &
+                  short_text(100.0_dp*dropped_share(signal%forces, last), 2)//' % of its power is dropped; its mean of '// &
+                  short_text(signal%mean, 5)//signal%unit//' '//signal%fate//'; '//counted(signal%cycles, 'cycle')//': '// &
+                  signal%counted_by
+   end function note_of
 
-         words = ''
-         if (cycles > 1) words = 'in '//integer_text(cycles)//' cycles of '//integer_text(size(samples))// &
-                                 ', whose rms deviation from their mean is '//short_text(100.0_dp*scatter, 3)// &
-                                 ' % of the rms of what oscillates of it; '
-         note%text = 'signal '//printable(path, .false.)//", column '"//recording%column//"': "// &
-                     integer_text(size(recording%samples))//' samples; '//words//what_is_kept()//order_text(1)//' to '// &
-                     order_text(last)//' are kept, '// &
-                     short_text(100.0_dp*dropped, 2)//' % of its power is dropped; its mean of '//short_text(mean, 5)// &
-                     unit//' '//fate//'; '//counted(cycles, 'cycle')//': '//told
-      end function note
+   !> An order, a whole one without a point.
+   pure function order_text(order) result(words)
+      real(dp), intent(in) :: order
+      character(:), allocatable :: words
 
-      !> Whole numbers over a force are harmonics of its frequency; over a motion of the shaft they are engine orders.
-      pure function what_is_kept() result(words)
-         character(:), allocatable :: words
+      words = real_text(order)
+      if (words(max(1, len(words) - 1):) == '.0') words = words(:len(words) - 2)
+   end function order_text
 
-         words = 'harmonics '
-         if (group == 'shaft') words = 'engine orders '
-      end function what_is_kept
+   !> Give a list its numbers, at the place of the signal.
+   subroutine put(input, group, name, numbers)
+      type(scene_input_t), intent(inout) :: input
+      character(*), intent(in) :: group
+      character(*), intent(in) :: name
+      real(dp), intent(in) :: numbers(:)
 
-      pure function order_text(i) result(words)
-         integer, intent(in) :: i
-         character(:), allocatable :: words
-
-         words = real_text(orders(i))
-         if (words(max(1, len(words) - 1):) == '.0') words = words(:len(words) - 2)
-      end function order_text
-
-      !> Give a list its numbers, at the place of the signal.
-      subroutine put(name, numbers)
-         character(*), intent(in) :: name
-         real(dp), intent(in) :: numbers(:)
-
-         associate (entry => input%entries(find_key(group, name)), signal => input%entries(find_key(group, 'signal')))
-            entry%given = .true.
-            entry%present = .true.
-            entry%faulty = .false.
-            entry%file = signal%file
-            entry%line = signal%line
-            entry%numbers = numbers
-         end associate
-      end subroutine put
-
-   end subroutine take_signal
+      associate (entry => input%entries(find_key(group//'.'//name)), signal => input%entries(find_key(group//'.signal')))
+         entry%given = .true.
+         entry%present = .true.
+         entry%faulty = .false.
+         entry%file = signal%file
+         entry%line = signal%line
+         entry%numbers = numbers
+      end associate
+   end subroutine put
 
 end module signal_reader

@@ -3,7 +3,6 @@
 module signal_span
    use axis_unit, only: angle_axis, axis_unit_t, degrees, microseconds, milliseconds, no_axis, radians, seconds, time_axis
    use csv_signal, only: least_samples, recording_t
-   use errors, only: fault_list_t
    use kinds, only: dp
    use scene_input, only: scene_input_t
    use text, only: counted, integer_text, short_text
@@ -17,8 +16,8 @@ module signal_span
 contains
 
    !> Count the cycles of a recording.
-   subroutine count_cycles(input, group, path, recording, cycles, told, faults)
-      type(scene_input_t), intent(in) :: input
+   subroutine count_cycles(input, group, path, recording, cycles, told)
+      type(scene_input_t), intent(inout) :: input
       !> 'load' or 'shaft'
       character(*), intent(in) :: group
       !> Path of the file
@@ -29,15 +28,13 @@ contains
       integer, intent(out) :: cycles
       !> What tells them, in a few words
       character(:), allocatable, intent(out) :: told
-      !> Faults are appended
-      type(fault_list_t), intent(inout) :: faults
       type(axis_unit_t) :: unit
       character(:), allocatable :: message
       real(dp) :: length
       integer :: asked
 
       asked = 0
-      if (input%is_given(group, 'signal_cycles')) asked = input%count(group, 'signal_cycles')
+      if (input%is_given(group//'.signal_cycles')) asked = input%count(group//'.signal_cycles')
       message = ''
       if (recording%axis_unit%kind == no_axis) then
          cycles = max(1, asked)
@@ -60,7 +57,7 @@ contains
          end if
       end associate
       if (len(message) == 0) return
-      call faults%add(path, 0, '', '', message)
+      call input%faults%add(path, 0, '', '', message)
       cycles = 0
    end subroutine count_cycles
 
@@ -72,13 +69,13 @@ contains
       integer, intent(in) :: kind
 
       length = turn
-      if (group == 'shaft') length = turn*real(input%count('shaft', 'cycle_revolutions'), dp)
+      if (group == 'shaft') length = turn*real(input%count('shaft.cycle_revolutions'), dp)
       if (kind == angle_axis) return
       length = 0.0_dp
-      if (group == 'shaft' .and. input%number('shaft', 'speed_rpm') > 0.0_dp) then
-         length = real(input%count('shaft', 'cycle_revolutions'), dp)*60.0_dp/input%number('shaft', 'speed_rpm')
-      else if (group == 'load' .and. input%number('load', 'frequency') > 0.0_dp) then
-         length = 1.0_dp/input%number('load', 'frequency')
+      if (group == 'shaft' .and. input%number('shaft.speed_rpm') > 0.0_dp) then
+         length = real(input%count('shaft.cycle_revolutions'), dp)*60.0_dp/input%number('shaft.speed_rpm')
+      else if (group == 'load' .and. input%number('load.frequency') > 0.0_dp) then
+         length = 1.0_dp/input%number('load.frequency')
       end if
    end function cycle_length
 
@@ -195,10 +192,10 @@ contains
                             ' are '//plain_number(real(asked, dp)*length/unit%size)//' '//trim(unit%word)
       if (asked == 0) words = 'a cycle is '//words
       if (group == 'load' .and. unit%kind == time_axis) then
-         words = words//' at frequency = '//plain_number(input%number('load', 'frequency'))//' Hz'
+         words = words//' at frequency = '//plain_number(input%number('load.frequency'))//' Hz'
       else if (group == 'shaft') then
-         words = words//' with cycle_revolutions = '//integer_text(input%count('shaft', 'cycle_revolutions'))
-         if (unit%kind == time_axis) words = words//' at speed_rpm = '//plain_number(input%number('shaft', 'speed_rpm'))
+         words = words//' with cycle_revolutions = '//integer_text(input%count('shaft.cycle_revolutions'))
+         if (unit%kind == time_axis) words = words//' at speed_rpm = '//plain_number(input%number('shaft.speed_rpm'))
       end if
    end function cycle_text
 
@@ -243,7 +240,7 @@ contains
          if (unit%kind == time_axis) then
             if (revolutions > 0) words = words//' or '
             words = words//'speed_rpm = '// &
-                    plain_number(60.0_dp*real(cycles*input%count('shaft', 'cycle_revolutions'), dp)/span)
+                    plain_number(60.0_dp*real(cycles*input%count('shaft.cycle_revolutions'), dp)/span)
          end if
          if (len(words) > 0) words = words//' would make it '//counted(cycles, 'cycle')
          if (len(words) == 0) words = 'it must span whole cycles: cycle_revolutions times 360 deg'
@@ -266,7 +263,7 @@ contains
       integer function whole_revolutions()
          real(dp) :: of_one
 
-         of_one = length/real(input%count('shaft', 'cycle_revolutions'), dp)
+         of_one = length/real(input%count('shaft.cycle_revolutions'), dp)
          whole_revolutions = cycles_in(size(recording%samples), of_one/(recording%step()*unit%size), 0)
          if (modulo(whole_revolutions, cycles) /= 0) cycles = max(1, asked)
          if (modulo(whole_revolutions, cycles) /= 0) whole_revolutions = 0

@@ -5,7 +5,6 @@ module table_reader
    use errors, only: fault_list_t
    use input_entry, only: numbers_text
    use input_key, only: allowed_text, in_range, is_computable, not_computable_text
-   use input_path, only: path_of_file
    use key_table, only: find_key, keys
    use keys_in_use, only: in_use
    use kinds, only: dp
@@ -25,37 +24,35 @@ module table_reader
 contains
 
    !> Read the table of the drag, if there is one.
-   subroutine take_drag_table(input, gear, faults)
+   subroutine take_drag_table(input, gear)
       !> Typed values
       type(scene_input_t), intent(inout) :: input
       !> Gets the table
       type(gear_t), intent(inout) :: gear
-      !> Faults are appended
-      type(fault_list_t), intent(inout) :: faults
       type(csv_table_t) :: csv
       character(:), allocatable :: path
       integer :: before, places(3), i, j, row
       logical, allocatable :: is_known(:, :)
 
-      before = faults%count()
-      call open_table(input, 'gear', 'drag_table', drag_example, path, csv, faults)
-      if (len(path) == 0 .or. faults%count() > before) return
+      before = input%faults%count()
+      call open_table(input, 'gear.drag_table', drag_example, path, csv)
+      if (len(path) == 0 .or. input%faults%count() > before) return
       do i = 1, size(drag_columns)
          places(i) = place_of(csv, trim(drag_columns(i)))
-         if (places(i) == 0) call faults%add(path, csv%header, '', '', 'there is no column '//trim(drag_columns(i))// &
-                                             '; the header must be '//drag_example)
+         if (places(i) == 0) call input%faults%add(path, csv%header, '', '', 'there is no column '//trim(drag_columns(i))// &
+                                                   '; the header must be '//drag_example)
       end do
       do i = 1, size(csv%names)
          if (any(places == i)) cycle
-         call faults%add(path, csv%header, '', '', 'column '//integer_text(i)//': its name is none of '//drag_example// &
-                         ', or stands there twice')
+         call input%faults%add(path, csv%header, '', '', 'column '//integer_text(i)//': its name is none of '//drag_example// &
+                               ', or stands there twice')
       end do
-      if (faults%count() > before) return
-      call check_column(path, csv, places(1), 'shaft', 'speed_rpm', faults)
-      call check_column(path, csv, places(2), 'oil', 'temperature_celsius', faults)
-      call check_column(path, csv, places(3), 'gear', 'drag_torque', faults)
-      if (size(csv%lines) < 2) call faults%add(path, csv%lines(1), '', '', 'a table needs two rows at least')
-      if (faults%count() > before) return
+      if (input%faults%count() > before) return
+      call check_column(path, csv, places(1), 'shaft.speed_rpm', input%faults)
+      call check_column(path, csv, places(2), 'oil.temperature_celsius', input%faults)
+      call check_column(path, csv, places(3), 'gear.drag_torque', input%faults)
+      if (size(csv%lines) < 2) call input%faults%add(path, csv%lines(1), '', '', 'a table needs two rows at least')
+      if (input%faults%count() > before) return
       allocate (gear%drag_table)
       associate (table => gear%drag_table, speeds => csv%values(:, places(1)), temperatures => csv%values(:, places(2)))
          table%speeds = different(speeds)
@@ -65,14 +62,14 @@ contains
          do row = 1, size(csv%lines)
             i = count(table%speeds <= speeds(row))
             j = count(table%temperatures <= temperatures(row))
-            if (is_known(i, j)) call faults%add(path, csv%lines(row), '', '', 'columns '//integer_text(places(1))//' and '// &
+            if (is_known(i, j)) call input%faults%add(path, csv%lines(row), '', '', 'columns '//integer_text(places(1))//' and '// &
                                                 integer_text(places(2))//': a row with this speed and temperature stands above')
             is_known(i, j) = .true.
             table%torques(i, j) = csv%values(row, places(3))
          end do
          do i = 1, size(table%speeds)
             do j = 1, size(table%temperatures)
-               if (.not. is_known(i, j)) call faults%add(path, 0, '', '', 'the grid has a hole: there is no row with '// &
+               if (.not. is_known(i, j)) call input%faults%add(path, 0, '', '', 'the grid has a hole: there is no row with '// &
                   'speed_rpm '//real_text(table%speeds(i))//' and temperature_celsius '// &
                   real_text(table%temperatures(j)))
             end do
@@ -82,36 +79,34 @@ contains
    end subroutine take_drag_table
 
    !> Read the table of the motion of the shaft, if there is one.
-   subroutine take_excitation_table(input, shaft, faults)
+   subroutine take_excitation_table(input, shaft)
       !> Typed values
       type(scene_input_t), intent(inout) :: input
       !> Gets the table
       type(shaft_t), intent(inout) :: shaft
-      !> Faults are appended
-      type(fault_list_t), intent(inout) :: faults
       type(csv_table_t) :: csv
       character(:), allocatable :: path
       real(dp), allocatable :: orders(:)
       integer, allocatable :: accelerations(:), phases(:)
       integer :: before, speed, i, row
 
-      before = faults%count()
-      call open_table(input, 'shaft', 'table', excitation_example, path, csv, faults)
-      if (len(path) == 0 .or. faults%count() > before) return
-      call sort_columns(path, csv, speed, orders, accelerations, phases, faults)
-      if (faults%count() > before) return
-      call check_column(path, csv, speed, 'shaft', 'speed_rpm', faults)
+      before = input%faults%count()
+      call open_table(input, 'shaft.table', excitation_example, path, csv)
+      if (len(path) == 0 .or. input%faults%count() > before) return
+      call sort_columns(path, csv, speed, orders, accelerations, phases, input%faults)
+      if (input%faults%count() > before) return
+      call check_column(path, csv, speed, 'shaft.speed_rpm', input%faults)
       do i = 1, size(orders)
-         call check_column(path, csv, accelerations(i), 'shaft', 'accelerations', faults)
-         if (phases(i) > 0) call check_column(path, csv, phases(i), 'shaft', 'phases', faults)
+         call check_column(path, csv, accelerations(i), 'shaft.accelerations', input%faults)
+         if (phases(i) > 0) call check_column(path, csv, phases(i), 'shaft.phases', input%faults)
       end do
       do row = 2, size(csv%lines)
          if (csv%values(row, speed) > csv%values(row - 1, speed)) cycle
-         call faults%add(path, csv%lines(row), '', '', column_text(csv, speed)//'the speeds must ascend, and after '// &
-                         real_text(csv%values(row - 1, speed))//' comes '//real_text(csv%values(row, speed)))
+         call input%faults%add(path, csv%lines(row), '', '', column_text(csv, speed)//'the speeds must ascend, and after '// &
+                               real_text(csv%values(row - 1, speed))//' comes '//real_text(csv%values(row, speed)))
       end do
-      if (size(csv%lines) < 2) call faults%add(path, csv%lines(1), '', '', 'a table needs two rows at least')
-      if (faults%count() > before) return
+      if (size(csv%lines) < 2) call input%faults%add(path, csv%lines(1), '', '', 'a table needs two rows at least')
+      if (input%faults%count() > before) return
       allocate (shaft%table)
       shaft%table%speeds = csv%values(:, speed)
       shaft%table%orders = orders
@@ -201,37 +196,36 @@ contains
       is_unknown = index(name, opening) /= 1
       if (is_unknown) return
       call read_strict_real(name(len(opening) + 1:), order, sound)
-      is_unknown = .not. (sound .and. is_computable(keys(find_key('shaft', 'orders')), order))
+      is_unknown = .not. (sound .and. is_computable(keys(find_key('shaft.orders')), order))
    end subroutine read_order
 
    !> Path and content of a table, if the input has one; an empty path if it has not, or if there is a fault.
-   subroutine open_table(input, group, name, example, path, csv, faults)
-      type(scene_input_t), intent(in) :: input
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
+   subroutine open_table(input, key, example, path, csv)
+      type(scene_input_t), intent(inout) :: input
+      !> As group.name
+      character(*), intent(in) :: key
       character(*), intent(in) :: example
       character(:), allocatable, intent(out) :: path
       type(csv_table_t), intent(out) :: csv
-      type(fault_list_t), intent(inout) :: faults
 
       path = ''
-      if (.not. input%is_given(group, name) .or. input%is_faulty(group, name)) return
-      if (.not. in_use(input, find_key(group, name))) return
-      path = path_of_file(input, group, name, faults)
-      if (len(path) > 0) call read_csv_table(path, example, csv, faults)
+      if (.not. input%is_given(key) .or. input%is_faulty(key)) return
+      if (.not. in_use(input, find_key(key))) return
+      path = input%file_path(key)
+      if (len(path) > 0) call read_csv_table(path, example, csv, input%faults)
    end subroutine open_table
 
    !> All values of a column are allowed for the key whose unit they have.
-   subroutine check_column(path, csv, column, group, name, faults)
+   subroutine check_column(path, csv, column, name, faults)
       character(*), intent(in) :: path
       type(csv_table_t), intent(in) :: csv
       integer, intent(in) :: column
-      character(*), intent(in) :: group
+      !> As group.name
       character(*), intent(in) :: name
       type(fault_list_t), intent(inout) :: faults
       integer :: row
 
-      associate (key => keys(find_key(group, name)))
+      associate (key => keys(find_key(name)))
          do row = 1, size(csv%lines)
             associate (value => csv%values(row, column))
                if (.not. in_range(key, value)) then

@@ -1,6 +1,5 @@
 !> The groups of tasks other than a single motion: &points, &sweep, &campaign, &threshold.
 module task_reader
-   use input_path, only: path_beside
    use key_table, only: find_swept_key, keys
    use keys_in_use, only: in_use
    use kinds, only: dp
@@ -27,15 +26,15 @@ contains
       call take_list('squeeze_ratios', 'squeeze_ratio_range', .false., points%squeeze_ratios)
       call take_list('speed_groups', 'speed_group_range', .true., points%speed_groups)
       points%from_speeds = size(points%speed_groups) == 0
-      points%speed_reading = input%choice('points', 'speed_reading')
-      points%compute(input%choices('points', 'compute')) = .true.
-      if (input%is_given('film', 'model')) then
+      points%speed_reading = input%choice('points.speed_reading')
+      points%compute(input%choices('points.compute')) = .true.
+      if (input%is_given('film.model')) then
          points%published = model == model_published
          points%exact = .not. points%published
          points%numerical = model == model_numerical
       end if
-      points%profile_nodes = input%count('points', 'profile_nodes')
-      points%cells = input%count('points', 'cells')
+      points%profile_nodes = input%count('points.profile_nodes')
+      points%cells = input%count('points.cells')
 
    contains
 
@@ -47,11 +46,11 @@ contains
          real(dp), allocatable, intent(out) :: numbers(:)
          real(dp), allocatable :: bounds(:)
 
-         if (.not. input%is_given('points', range)) then
-            allocate (numbers, source=input%numbers('points', list))
+         if (.not. input%is_given('points.'//range)) then
+            allocate (numbers, source=input%numbers('points.'//list))
             return
          end if
-         allocate (bounds, source=input%numbers('points', range))
+         allocate (bounds, source=input%numbers('points.'//range))
          allocate (numbers, source=spread_between(bounds(1), bounds(2), nint(bounds(3)), logarithmic))
       end subroutine take_list
 
@@ -63,11 +62,11 @@ contains
       type(sweep_t) :: sweep
       real(dp), allocatable :: values(:)
 
-      sweep%key = find_swept_key(input%word('sweep', 'key'))
-      sweep%outward = input%count('sweep', 'count')
-      allocate (values, source=spread_between(input%number('sweep', 'first'), input%number('sweep', 'last'), sweep%outward, &
-                                              input%word('sweep', 'spacing') == 'logarithmic'))
-      if (input%flag('sweep', 'turn')) then
+      sweep%key = find_swept_key(input%word('sweep.key'))
+      sweep%outward = input%count('sweep.count')
+      allocate (values, source=spread_between(input%number('sweep.first'), input%number('sweep.last'), sweep%outward, &
+                                              input%word('sweep.spacing') == 'logarithmic'))
+      if (input%flag('sweep.turn')) then
          allocate (sweep%values, source=[values, values(sweep%outward - 1:1:-1)])
       else
          allocate (sweep%values, source=values)
@@ -82,33 +81,33 @@ contains
       integer, allocatable :: scales(:)
       integer :: i, count
 
-      allocate (campaign%vary, source=split_words(input%words('campaign', 'vary')))
-      allocate (scales, source=input%choices('campaign', 'scale'))
+      allocate (campaign%vary, source=split_words(input%words('campaign.vary')))
+      allocate (scales, source=input%choices('campaign.scale'))
       allocate (campaign%scale(size(campaign%vary)), source=1)
       count = min(size(scales), size(campaign%vary))
       campaign%scale(:count) = scales(:count)
-      allocate (campaign%first, source=input%numbers('campaign', 'first'))
-      allocate (campaign%last, source=input%numbers('campaign', 'last'))
-      allocate (campaign%count, source=input%numbers('campaign', 'count'))
-      allocate (campaign%values, source=input%columns('campaign', 'values'))
-      campaign%sample = input%choice('campaign', 'sample')
-      campaign%size = input%count('campaign', 'size')
-      campaign%seed = input%count('campaign', 'seed')
-      campaign%csv = path_beside(input, input%word('campaign', 'csv'))
-      allocate (recorded, source=split_words(input%words('campaign', 'record')))
+      allocate (campaign%first, source=input%numbers('campaign.first'))
+      allocate (campaign%last, source=input%numbers('campaign.last'))
+      allocate (campaign%count, source=input%numbers('campaign.count'))
+      allocate (campaign%values, source=input%columns('campaign.values'))
+      campaign%sample = input%choice('campaign.sample')
+      campaign%size = input%count('campaign.size')
+      campaign%seed = input%count('campaign.seed')
+      campaign%csv = input%path_beside(input%word('campaign.csv'))
+      allocate (recorded, source=split_words(input%words('campaign.record')))
       allocate (campaign%record(size(recorded)))
       do i = 1, size(recorded)
          campaign%record(i) = quantity_code(recorded(i)%text)
       end do
       ! Which model tells of a row is told.
-      if (input%word('film', 'model') == 'automatic' .and. .not. any(campaign%record == quantity_film_model)) &
+      if (input%word('film.model') == 'automatic' .and. .not. any(campaign%record == quantity_film_model)) &
          campaign%record = [campaign%record, quantity_film_model]
-      campaign%samples_per_period = input%count('campaign', 'samples_per_period')
-      campaign%neighbours = input%flag('campaign', 'neighbours')
-      campaign%allow_invalid = input%flag('campaign', 'allow_invalid')
-      campaign%confirm_size = input%flag('campaign', 'confirm_size')
-      campaign%part = input%count('campaign', 'part')
-      campaign%parts = input%count('campaign', 'parts')
+      campaign%samples_per_period = input%count('campaign.samples_per_period')
+      campaign%neighbours = input%flag('campaign.neighbours')
+      campaign%allow_invalid = input%flag('campaign.allow_invalid')
+      campaign%confirm_size = input%flag('campaign.confirm_size')
+      campaign%part = input%count('campaign.part')
+      campaign%parts = input%count('campaign.parts')
       allocate (campaign%in_base(size(keys)))
       do i = 1, size(keys)
          campaign%in_base(i) = input%entries(i)%present .and. in_use(input, i)
@@ -121,14 +120,14 @@ contains
       type(threshold_t) :: threshold
       character(:), allocatable :: criterion
 
-      threshold%key = input%word('threshold', 'key')
-      threshold%first = input%number('threshold', 'first')
-      threshold%last = input%number('threshold', 'last')
-      threshold%scale = input%choice('threshold', 'scale')
-      threshold%count = input%count('threshold', 'count')
-      threshold%tolerance = input%number('threshold', 'tolerance')
-      threshold%level = input%number('threshold', 'level')
-      criterion = input%word('threshold', 'criterion')
+      threshold%key = input%word('threshold.key')
+      threshold%first = input%number('threshold.first')
+      threshold%last = input%number('threshold.last')
+      threshold%scale = input%choice('threshold.scale')
+      threshold%count = input%count('threshold.count')
+      threshold%tolerance = input%number('threshold.tolerance')
+      threshold%level = input%number('threshold.level')
+      criterion = input%word('threshold.criterion')
       threshold%quantity = quantity_code(criterion)
       threshold%wanted = word_position(class_words, criterion)
       if (criterion == 'impacts') then

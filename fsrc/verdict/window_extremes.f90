@@ -1,11 +1,12 @@
 !> Smallest and largest values of a motion over its window: of the steps of the engine and what lies between their ends, or of
 !> the samples where each is a step of its own (Newmark's method).
 module window_extremes
+   use flank_contact, only: is_elastic
    use kinds, only: dp
    use node_extremes, only: extreme_t, seen_acceleration, seen_films, seen_loads, seen_net_load, seen_position, seen_pressure, &
       seen_quantities, seen_velocity
    use carried_loads, only: contact_films, contact_loads, gear_positions, largest_pressures, net_loads
-   use problem, only: contact_count, has_own_position, of_velocity, problem_t
+   use problem, only: contact_count, of_velocity, problem_t
    use value_range, only: range_of
    use window_record, only: window_record_t
    implicit none(type, external)
@@ -56,7 +57,7 @@ contains
             call note(seen_acceleration, accelerations(first:last), extremes)
             call largest_pressures(problem, here, part)
             call note(seen_pressure, part, extremes)
-            if (has_own_position(problem)) call note(seen_position, gear_positions(problem, here), extremes)
+            if (is_elastic(problem%contact)) call note(seen_position, gear_positions(problem, here), extremes)
             if (contact_count(problem) == 1) cycle
             call net_loads(problem, here, part)
             call note(seen_net_load, part, extremes)

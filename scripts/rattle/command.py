@@ -12,7 +12,6 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from rattle.former_names import FORMER_NAMES
 from rattle.result import Result, ResultError
 from rattle.result_file import ResultFile
 from rattle.summary import SummaryError, read_summary
@@ -150,12 +149,8 @@ def positive_number(text: str) -> float:
 
 
 def names(text: str) -> list[str]:
-    """The value of an option that is a list of names between commas; former names are told and taken."""
-    given = [name.strip() for name in text.split(",") if name.strip()]
-    for name in given:
-        if name in FORMER_NAMES:
-            print(f"{name} is called {FORMER_NAMES[name]} now", file=sys.stderr)
-    return [FORMER_NAMES.get(name, name) for name in given]
+    """The value of an option that is a list of names between commas."""
+    return [name.strip() for name in text.split(",") if name.strip()]
 
 
 def some_of(known: Sequence[int | str]) -> Callable[[str], tuple[int | str, ...]]:

@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from rattle.checksums import LANES, checksum, checksums
-from rattle.former_names import asked_for, present_input
 from rattle.namelist import NamelistError, parse
 from rattle.result_header import SERIES, ResultError, ResultHeader
 
@@ -53,8 +52,7 @@ class ResultFile:
         return name in self.units
 
     def check_column(self, name: str) -> str:
-        """The present name of a column; refuse a name that is no column."""
-        name = asked_for(name, self)
+        """The name of a column; refuse a name that is no column."""
         if name not in self:
             raise ResultError(f"{self.path} has no column '{name}'; it holds {', '.join(self.names)}.")
         return name
@@ -63,7 +61,7 @@ class ResultFile:
     def input(self) -> dict[str, dict[str, Any]]:
         """The resolved input: group, key, value."""
         try:
-            groups = present_input(parse(self.input_text))
+            groups = parse(self.input_text)
             # What follows from &gear, &shaft and &oil; a sweep or campaign may vary what it follows from.
             if groups.get("scene", {}).get("task") == "motion":
                 for group, key, value, _ in DERIVED.findall(self.input_text):

@@ -54,7 +54,6 @@ from typing import BinaryIO
 import numpy as np
 
 from rattle.checksums import checksum
-from rattle.former_names import present_names
 
 MAGIC = b"RATTLE\r\n"
 FORMAT_VERSION = 2
@@ -210,9 +209,7 @@ def read_header(stream: BinaryIO, path: object) -> ResultHeader:
     if checksum(fixed[:24] + fixed[32:72] + columns + text + head) != stored:
         raise ResultError(f"{path} has a damaged header: it is not what its checksum says.")
     chunks = _read_chunks(stream, head, header_bytes - table_start, path)
-    names = present_names(
-        tuple(_text(name, "column name", path) for name, _ in COLUMN_PART.iter_unpack(columns))
-    )
+    names = tuple(_text(name, "column name", path) for name, _ in COLUMN_PART.iter_unpack(columns))
     if "" in names or len(set(names)) < len(names):
         raise ResultError(f"{path} has a damaged header: its column names are blank or repeated.")
     return ResultHeader(

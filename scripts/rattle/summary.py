@@ -8,7 +8,6 @@ from typing import Any
 
 from rattle.checksums import checksum
 from rattle.codes import QUANTITIES, spoken
-from rattle.former_names import present_summary
 from rattle.namelist import NamelistError, parse
 from rattle.result_header import checksum_of_head
 from rattle.rounding import stated_error
@@ -55,10 +54,8 @@ def read_summary(path: str | Path) -> dict[str, Any]:
         raise SummaryError(f"{path} is not a summary: {fault}") from None
     if "summary" not in groups:
         raise SummaryError(f"{path} is not a summary: it has no group &summary.")
-    summary = present_summary(groups["summary"])
-    pairs = [
-        present_summary(keys) for name, keys in groups.items() if name == "pair" or name.startswith("pair(")
-    ]
+    summary = groups["summary"]
+    pairs = [keys for name, keys in groups.items() if name == "pair" or name.startswith("pair(")]
     if pairs:
         summary["gears"] = {str(keys.pop("gear")).strip(): keys for keys in pairs}
     summary.setdefault("name", path.name.removesuffix(".nml").removesuffix(".summary"))

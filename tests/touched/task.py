@@ -36,7 +36,7 @@ READ = """   !> &rest
       type(scene_input_t), intent(in) :: input
       type(rest_t) :: rest
 
-      allocate (rest%loads, source=input%numbers('rest', 'loads'))
+      allocate (rest%loads, source=input%numbers('rest.loads'))
    end function read_rest
 
 """

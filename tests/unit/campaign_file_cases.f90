@@ -1,6 +1,7 @@
 !> A small campaign for the tests of its file, and the steps that they are made of.
 module campaign_file_cases
-   use campaign_file, only: campaign_file_t, campaign_layout_t
+   use campaign_file, only: campaign_file_t
+   use campaign_header, only: campaign_layout_t
    use checks, only: check_list_t
    use checksum, only: checksum_of
    use errors, only: error_t

@@ -1,9 +1,10 @@
 !> Tests of the result file of a campaign: any order of chunks and any number of runs and ranks give the same
 !> bytes; spoilt chunks are seen.
 module test_campaign_file
-   use campaign_file, only: campaign_file_t, campaign_layout_t
+   use campaign_file, only: campaign_file_t
    use campaign_file_cases, only: chunk_rows, chunks, close_file, columns, compute, content_of, create, finish, input, &
       layout_of, long_at, overwrite_bytes, path, resume, rows_of, scenes
+   use campaign_header, only: campaign_layout_t
    use checks, only: check_list_t
    use checksum, only: checksum_of
    use errors, only: error_t
@@ -45,7 +46,6 @@ contains
 
       layout = layout_of(input)
       call create(checks, file, .false.)
-      call checks%check(file%is_locked(), 'locked')
       call checks%check(file%chunk_count() == chunks .and. .not. any(file%done_flags()), 'no chunk is done')
       undisturbed = content_of(path)
       call checks%check(long_at(undisturbed, 24_int64) == -1_int64, 'rows unknown')

@@ -1,9 +1,10 @@
 !> Tests of what the result file of a campaign refuses: second runs, changed inputs, files of another kind, places
 !> that cannot be written, full disks.
 module test_campaign_refusals
-   use campaign_file, only: campaign_file_t, campaign_layout_t
+   use campaign_file, only: campaign_file_t
    use campaign_file_cases, only: chunks, close_file, compute, content_of, create, expect, input, layout_of, line_feed, &
       overwrite_bytes, reseal, path, rows_of
+   use campaign_header, only: campaign_layout_t
    use checks, only: check_list_t
    use errors, only: error_t, exit_bad_input, exit_system
    use file_system, only: delete_file, path_exists

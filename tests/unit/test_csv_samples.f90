@@ -118,7 +118,7 @@ contains
       if (faults%count() > 0) print '(a)', faults%sentence(1)
       call checks%check(size(samples%positions) == 2 .and. size(samples%values) == 4, message//': size')
       if (size(samples%values) /= 4) return
-      call checks%check(all(samples%positions == [find_key('load', 'mass'), find_key('solver', 'periods')]), &
+      call checks%check(all(samples%positions == [find_key('load.mass'), find_key('solver.periods')]), &
                         message//': keys')
       call checks%check(maxval(abs(samples%values - reshape([1.5_dp, 20.0_dp, 2.5_dp, 30.0_dp], &
                                                             [2, 2]))) <= 0.0_dp, &

@@ -174,7 +174,7 @@ contains
       type(scene_t) :: scene
       character(:), allocatable :: line, name, unit
       character(40) :: expected
-      integer :: start, length, known, i, dot
+      integer :: start, length, known, i
 
       call read_well(checks, pair, scene)
       known = 0
@@ -194,9 +194,8 @@ contains
          do i = 1, size(others)
             if (index(others(i), name//' ') == 1) expected = others(i) (len(name) + 2:)
          end do
-         dot = index(name, '.')
-         if (find_key(name(:dot - 1), name(dot + 1:)) > 0) then
-            expected = keys(find_key(name(:dot - 1), name(dot + 1:)))%unit
+         if (find_key(name) > 0) then
+            expected = keys(find_key(name))%unit
             if (expected == '-') expected = ''
          else
             call checks%check(any(index(others, name//' ') == 1), 'a derived number that is known: '//name)

@@ -7,7 +7,7 @@ module test_drag
    use derived_scene, only: derive, derived_rules
    use drag_parts, only: churning_torque, needle_bearing_torque, sheared_gap_torque
    use force, only: force_of, inertia_ratio
-   use gear_contact, only: find_contact, gear_contact_t, gear_pair_t
+   use gear_contact, only: find_contact, gear_contact_t
    use kinds, only: dp
    use loose_gear_drag, only: drag_of_gear, gap_is_turbulent, reference_diameter
    use oil_data, only: oil_viscosity, viscosity_temperature_slope
@@ -264,14 +264,15 @@ contains
    !> Contact ratios of two pairs whose tip diameters are not known, and of one with the tips that were taken there.
    subroutine test_contact_ratios(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
-      type(gear_pair_t) :: gears
+      type(gear_t) :: gears
       type(gear_contact_t) :: contact
       character(:), allocatable :: wrong, message
       real(dp) :: tips(2), length
       real(dp), parameter :: shift = 0.5_dp*0.107257065_dp
 
-      gears = gear_pair_t(19, 37, 2.2e-3_dp, 20.0_dp, 28.0_dp, 0.016_dp, 0.070_dp, loose_inertia=8.9e-4_dp)
-      call find_contact(gears, 10.0_dp, contact, wrong, message)
+      gears = gear_t(teeth_1=19, teeth_2=37, normal_module=2.2e-3_dp, pressure_angle_deg=20.0_dp, helix_angle_deg=28.0_dp, &
+                     face_width=0.016_dp, centre_distance=0.070_dp, loose_inertia=8.9e-4_dp)
+      call find_contact(gears, 0.0_dp, 10.0_dp, contact, wrong, message)
       call checks%check_close(contact%contact_ratio, 1.35319203678_dp, 1.0e-11_dp, '19/37: eps_alpha')
       call checks%check_close(contact%overlap_ratio, 1.0868177434_dp, 1.0e-10_dp, '19/37: eps_beta')
       call checks%check_close(contact%contact_lines, 1.0_dp, 0.0_dp, '19/37: one line where no tip diameter is given')
@@ -279,12 +280,13 @@ contains
       tips = 2.0_dp*(0.5_dp*2.2e-3_dp*[19.0_dp, 37.0_dp]/cos(28.0_dp*two_pi/360.0_dp) + 2.2e-3_dp*(1.0_dp + shift))
       gears%tip_diameter_1 = tips(1)
       gears%tip_diameter_2 = tips(2)
-      call find_contact(gears, 10.0_dp, contact, wrong, message)
+      call find_contact(gears, 0.0_dp, 10.0_dp, contact, wrong, message)
       call checks%check_close(contact%contact_lines, 1.35319203678_dp, 1.0e-8_dp, '19/37: lines by the tip diameters')
       call checks%check_close(contact%length, length*contact%contact_lines, 1.0e-15_dp, '19/37: length of all lines')
       call checks%check_close(contact%tooth_width, 0.016_dp*contact%contact_lines, 1.0e-15_dp, '19/37: width of all teeth')
-      gears = gear_pair_t(11, 38, 2.5e-3_dp, 20.0_dp, -28.96_dp, 0.016_dp, loose_inertia=1.715e-3_dp)
-      call find_contact(gears, 10.0_dp, contact, wrong, message)
+      gears = gear_t(teeth_1=11, teeth_2=38, normal_module=2.5e-3_dp, pressure_angle_deg=20.0_dp, helix_angle_deg=-28.96_dp, &
+                     face_width=0.016_dp, loose_inertia=1.715e-3_dp)
+      call find_contact(gears, 0.0_dp, 10.0_dp, contact, wrong, message)
       call checks%check_close(contact%contact_ratio, 1.30511390286_dp, 1.0e-11_dp, '11/38: eps_alpha')
       call checks%check_close(contact%overlap_ratio, 0.986401904099_dp, 1.0e-12_dp, '11/38: eps_beta, whichever the hand')
    end subroutine test_contact_ratios
@@ -309,8 +311,9 @@ contains
          type(gear_contact_t) :: contact
          character(:), allocatable :: wrong, message
 
-         call find_contact(gear_pair_t(19, 37, 2.2e-3_dp, 20.0_dp, 28.0_dp, 0.016_dp, 0.070_dp, loose_inertia=8.9e-4_dp, &
-                                       tip_diameter_1=first, tip_diameter_2=second), 10.0_dp, contact, wrong, message)
+         call find_contact(gear_t(teeth_1=19, teeth_2=37, normal_module=2.2e-3_dp, pressure_angle_deg=20.0_dp, &
+                                  helix_angle_deg=28.0_dp, face_width=0.016_dp, centre_distance=0.070_dp, loose_inertia=8.9e-4_dp, &
+                                  tip_diameter_1=first, tip_diameter_2=second), 0.0_dp, 10.0_dp, contact, wrong, message)
          call checks%check(wrong == expected .and. (len(message) > 0 .eqv. len(expected) > 0), 'tips: '//expected//' '//wrong)
       end subroutine check
 

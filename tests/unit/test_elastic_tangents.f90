@@ -6,9 +6,9 @@ module test_elastic_tangents
    use checks, only: check_list_t
    use engine, only: ending_t, motion_state_t, request_t, start_of
    use kinds, only: dp
+   use linear_equations, only: eigenvalues
    use lyapunov, only: follow_neighbours, parting_t
    use many_motions, only: has_tangents, solve_motions
-   use matrix_values, only: eigenvalues
    use periodic_orbit, only: find_periodic_orbit, map_states, periodic_orbit_t
    use problem, only: problem_of, problem_t, state_size
    use scene_status, only: status_complete

@@ -4,9 +4,8 @@ module test_elastic_teeth
    use canonical_scenes, only: canonical_scene, loose_gear
    use checks, only: check_list_t
    use controlled_engine, only: solve_window
-   use engine, only: ending_t, motion_count_t, motion_state_t, request_t, start_of
-   use film_law, only: film_load, kernel_of
-   use force, only: force_of_period
+   use engine, only: ending_t, motion_state_t, request_t, start_of
+   use film_law, only: film_load
    use fourier, only: amplitude_spectrum
    use judged_scene, only: judged_scene_t, quantity_value
    use kinds, only: dp

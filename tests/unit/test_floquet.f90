@@ -3,7 +3,7 @@ module test_floquet
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use checks, only: check_list_t
    use kinds, only: dp
-   use matrix_values, only: eigenvalues
+   use linear_equations, only: eigenvalues
    use periodic_orbit, only: orbit_doubling_near, orbit_fold_near, orbit_stability, orbit_stable, orbit_torus_near, orbit_unstable
    use quantities, only: quantity_orbit_stability, quantity_word
    implicit none(type, external)

@@ -2,10 +2,10 @@
 module test_gear
    use checks, only: check_list_t
    use derived_scene, only: base_order
-   use gear_contact, only: find_contact, gear_contact_t, gear_pair_t
+   use gear_contact, only: find_contact, gear_contact_t
    use kinds, only: dp
-   use oil_data, only: base_mineral, base_pao, base_polyglycol, kinematic_viscosity, oil_density, oil_pressure_viscosity, &
-                       oil_viscosity
+   use oil_data, only: kinematic_viscosity, oil_density, oil_pressure_viscosity, oil_viscosity
+   use scene_types, only: gear_t, oil_mineral, oil_pao, oil_polyglycol
    implicit none(type, external)
    private
 
@@ -34,12 +34,13 @@ contains
    !> A pair with a centre distance of its own at the pitch point, 11 and 38 teeth.
    subroutine test_shifted_pair(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
-      type(gear_pair_t) :: pair
+      type(gear_t) :: pair
       type(gear_contact_t) :: contact
       character(:), allocatable :: wrong, message
 
-      pair = gear_pair_t(11, 38, 2.5e-3_dp, 20.0_dp, 28.96_dp, 0.016_dp, loose_inertia=1.715e-3_dp, drag_torque=0.1_dp)
-      call find_contact(pair, 800.0_dp/60.0_dp, contact, wrong, message)
+      pair = gear_t(teeth_1=11, teeth_2=38, normal_module=2.5e-3_dp, pressure_angle_deg=20.0_dp, helix_angle_deg=28.96_dp, &
+                    face_width=0.016_dp, loose_inertia=1.715e-3_dp, drag_torque=0.1_dp)
+      call find_contact(pair, pair%drag_torque, 800.0_dp/60.0_dp, contact, wrong, message)
       call check('wrong', real(len(wrong) + len(message), dp), 0.0_dp)
       call check('base radius 1', contact%base_radius_1, 0.01450969563_dp)
       call check('base radius 2', contact%base_radius_2, 0.05012440307_dp)
@@ -68,12 +69,14 @@ contains
    !> A pair that touches beside its pitch point with one line and a half, 33 and 32 teeth.
    subroutine test_position(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
-      type(gear_pair_t) :: pair
+      type(gear_t) :: pair
       type(gear_contact_t) :: contact
       character(:), allocatable :: wrong, message
 
-      pair = gear_pair_t(33, 32, 1.85e-3_dp, 20.0_dp, 30.8_dp, 0.016_dp, 0.0702_dp, 1.0e-3_dp, 1.5_dp, 2.8e-4_dp, 0.05_dp)
-      call find_contact(pair, 800.0_dp/60.0_dp, contact, wrong, message)
+      pair = gear_t(teeth_1=33, teeth_2=32, normal_module=1.85e-3_dp, pressure_angle_deg=20.0_dp, helix_angle_deg=30.8_dp, &
+                    face_width=0.016_dp, centre_distance=0.0702_dp, contact_position=1.0e-3_dp, contact_lines=1.5_dp, &
+                    loose_inertia=2.8e-4_dp, drag_torque=0.05_dp)
+      call find_contact(pair, pair%drag_torque, 800.0_dp/60.0_dp, contact, wrong, message)
       call check('working pressure angle', contact%working_pressure_angle, 23.35107601_dp)
       call check('base helix angle', contact%base_helix_angle, 28.76138053_dp)
       call check('radius', contact%radius, 0.007874713445_dp)
@@ -99,13 +102,14 @@ contains
    !> Spur gears by hand: all lies in one plane, both speeds are one at the pitch point.
    subroutine test_spur_pair(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
-      type(gear_pair_t) :: pair
+      type(gear_t) :: pair
       type(gear_contact_t) :: contact
       character(:), allocatable :: wrong, message
       real(dp), parameter :: rounding = 1.0e-14_dp, sine = 0.3420201433256687_dp
 
-      pair = gear_pair_t(20, 30, 2.0e-3_dp, face_width=0.02_dp, loose_inertia=1.0e-3_dp)
-      call find_contact(pair, 10.0_dp, contact, wrong, message)
+      pair = gear_t(teeth_1=20, teeth_2=30, normal_module=2.0e-3_dp, face_width=0.02_dp, loose_inertia=1.0e-3_dp, &
+                    pressure_angle_deg=20.0_dp)
+      call find_contact(pair, pair%drag_torque, 10.0_dp, contact, wrong, message)
       call checks%check_close(contact%working_pressure_angle, 20.0_dp, 1.0e-13_dp, 'spur pair: working pressure angle')
       call checks%check_close(contact%centre_distance, 0.05_dp, rounding, 'spur pair: centre distance')
       call checks%check_close(contact%last_position - contact%first_position, 0.05_dp*sine, rounding, 'spur pair: line of action')
@@ -118,24 +122,25 @@ contains
    subroutine test_wrong_pairs(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
       type(gear_contact_t) :: contact
-      type(gear_pair_t) :: pair
+      type(gear_t) :: pair
       character(:), allocatable :: wrong, message
       real(dp) :: ends(2)
       integer :: i
 
-      pair = gear_pair_t(20, 30, 2.0e-3_dp, face_width=0.02_dp, centre_distance=0.0469_dp, loose_inertia=1.0e-3_dp)
-      call find_contact(pair, 10.0_dp, contact, wrong, message)
+      pair = gear_t(teeth_1=20, teeth_2=30, normal_module=2.0e-3_dp, face_width=0.02_dp, centre_distance=0.0469_dp, &
+                    loose_inertia=1.0e-3_dp, pressure_angle_deg=20.0_dp)
+      call find_contact(pair, pair%drag_torque, 10.0_dp, contact, wrong, message)
       call checks%check(wrong == 'centre_distance' .and. len(message) > 0, 'gears within their base circles are refused')
       pair%centre_distance = 0.0470_dp
-      call find_contact(pair, 10.0_dp, contact, wrong, message)
+      call find_contact(pair, pair%drag_torque, 10.0_dp, contact, wrong, message)
       call checks%check(wrong == '', 'gears that just mesh are taken')
       ends = [contact%first_position, contact%last_position]
       do i = 1, 2
          pair%contact_position = ends(i)*(1.0_dp + 1.0e-6_dp)
-         call find_contact(pair, 10.0_dp, contact, wrong, message)
+         call find_contact(pair, pair%drag_torque, 10.0_dp, contact, wrong, message)
          call checks%check(wrong == 'contact_position' .and. len(message) > 0, 'a contact beyond the line of action is refused')
          pair%contact_position = ends(i)*(1.0_dp - 1.0e-6_dp)
-         call find_contact(pair, 10.0_dp, contact, wrong, message)
+         call find_contact(pair, pair%drag_torque, 10.0_dp, contact, wrong, message)
          call checks%check(wrong == '' .and. contact%radius > 0.0_dp, 'a contact at the end of the line of action is taken')
       end do
    end subroutine test_wrong_pairs
@@ -153,7 +158,7 @@ contains
       do i = 1, size(temperatures)
          ! Half a unit of the last digit that is known
          call checks%check_close(oil(temperatures(i))/viscosities(i), 1.0_dp, 4.0e-9_dp, 'mineral oil: viscosity')
-         call checks%check_close(oil_pressure_viscosity(base_mineral, oil(38.0_dp), temperatures(i))/coefficients(i), 1.0_dp, &
+         call checks%check_close(oil_pressure_viscosity(oil_mineral, oil(38.0_dp), temperatures(i))/coefficients(i), 1.0_dp, &
                                  merge(1.0e-8_dp, 5.0e-8_dp, i <= 3), 'mineral oil: pressure-viscosity coefficient')
       end do
    end subroutine test_mineral_oil
@@ -162,9 +167,9 @@ contains
    subroutine test_other_bases(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      call checks%check_close(oil_pressure_viscosity(base_pao, oil(38.0_dp), 40.0_dp)/1.25084897e-8_dp, 1.0_dp, 5.0e-9_dp, &
+      call checks%check_close(oil_pressure_viscosity(oil_pao, oil(38.0_dp), 40.0_dp)/1.25084897e-8_dp, 1.0_dp, 5.0e-9_dp, &
                               'PAO: pressure-viscosity coefficient')
-      call checks%check_close(oil_pressure_viscosity(base_polyglycol, oil(38.0_dp), 40.0_dp)/8.70226199e-9_dp, 1.0_dp, 5.0e-9_dp, &
+      call checks%check_close(oil_pressure_viscosity(oil_polyglycol, oil(38.0_dp), 40.0_dp)/8.70226199e-9_dp, 1.0_dp, 5.0e-9_dp, &
                               'polyglycol: pressure-viscosity coefficient')
    end subroutine test_other_bases
 

@@ -12,8 +12,8 @@ module test_inner_states
    use judged_scene, only: judged_scene_t, quantity_value
    use key_table, only: find_key
    use kinds, only: dp, int64
+   use linear_equations, only: eigenvalues
    use many_motions, only: solve_motions
-   use matrix_values, only: eigenvalues
    use output_place, only: state_path
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
    use problem, only: contact_count, film_at_rest, has_elastic_teeth, inner_places, of_drive_compression, of_film, of_velocity, &
@@ -296,7 +296,7 @@ contains
       call solve_in_memory(scene, judged, error)
       call checks%check(judged%judged .and. quantity_value(quantity_verified, judged) > 0.5_dp, 'scene: verified')
       allocate (values, source=reshape(scene%excitation%force_amplitude*[1.0_dp, 0.5_dp], [1, 2]))
-      call plan_table([find_key('load', 'force_amplitude')], values, plan)
+      call plan_table([find_key('load.force_amplitude')], values, plan)
       allocate (rows(3 + size(told), 2), space)
       call solve_scenes(scene, plan, 1_int64, space, rows, error)
       do i = 1, size(told)

@@ -97,7 +97,7 @@ contains
       call read_entry("&output columns='time' 'acceleration' 'film_load' columns(2)='applied_force' /", entry, faults)
       call checks%check(entry%words == 'time applied_force film_load', 'one word replaced')
       call checks%check(faults%count() == 0, 'lists: no fault')
-      entry = new_entry(keys(find_key('points', 'squeeze_ratios')), 'f')
+      entry = new_entry(keys(find_key('points.squeeze_ratios')), 'f')
       call checks%check(size(entry%numbers) == 1, 'default of a list of numbers')
    end subroutine test_lists
 
@@ -153,13 +153,13 @@ contains
       integer :: i
 
       call read_entry('&load mass=3.3333333333333335 /', entry, faults)
-      call expect_back(keys(find_key('load', 'mass')), entry)
+      call expect_back(keys(find_key('load.mass')), entry)
       call read_entry('&load frequency=1e-300 /', entry, faults)
-      call expect_back(keys(find_key('load', 'frequency')), entry)
+      call expect_back(keys(find_key('load.frequency')), entry)
       call read_entry("&scene name='x''y' /", entry, faults)
-      call expect_back(keys(find_key('scene', 'name')), entry)
+      call expect_back(keys(find_key('scene.name')), entry)
       call read_entry('&solver periods=17 /', entry, faults)
-      call expect_back(keys(find_key('solver', 'periods')), entry)
+      call expect_back(keys(find_key('solver.periods')), entry)
       do i = 1, size(keys)
          entry = new_entry(keys(i), 'f')
          if (entry%present) call expect_back(keys(i), entry)
@@ -195,7 +195,7 @@ contains
       integer :: i, position
 
       call scan_namelists(text, 'f', 1, assignments, faults)
-      position = find_key(assignments(2)%group, assignments(2)%key)
+      position = find_key(assignments(2)%group//'.'//assignments(2)%key)
       entry = new_entry(keys(position), 'f')
       do i = 2, size(assignments)
          call set_entry(keys(position), assignments(i), entry, 'f', faults)

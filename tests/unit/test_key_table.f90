@@ -47,7 +47,7 @@ contains
          name = trim(quantity_table(i)%name)
          call checks%check(quantity_table(i)%code == i .and. quantity_code(name) == i, name//': its code is its place')
          call checks%check(index(quantity_table(i)%told_in, 'campaign') > 0 .eqv. &
-            word_position(trim(keys(find_key('campaign', 'record'))%choices), name) > 0, name//': a word of the key')
+            word_position(trim(keys(find_key('campaign.record'))%choices), name) > 0, name//': a word of the key')
       end do
       call checks%check(quantity_code('everything') == 0, 'no quantity of this name')
    end subroutine test_recorded_quantities
@@ -72,7 +72,7 @@ contains
             call checks%check(is_varied .eqv. keys(i)%kind == real_kind, &
                               trim(keys(i)%name)//': a number of a motion, so it can vary')
       end do
-      allocate (swept, source=split_words(keys(find_key('sweep', 'key'))%choices))
+      allocate (swept, source=split_words(keys(find_key('sweep.key'))%choices))
       do i = 1, size(swept)
          call find_varied_key(key_name(find_swept_key(swept(i)%text)), position, message)
          call checks%check(position > 0, swept(i)%text//': swept, so it can vary')
@@ -89,7 +89,7 @@ contains
 
       do i = 1, size(keys)
          name = trim(keys(i)%group)//' '//trim(keys(i)%name)
-         call checks%check(find_key(keys(i)%group, keys(i)%name) == i, name//': found once')
+         call checks%check(find_key(keys(i)%group//'.'//keys(i)%name) == i, name//': found once')
          call checks%check(known_group(keys(i)%group), name//': group known')
          if (keys(i)%default /= 'required') call checks%check(is_allowed(keys(i), keys(i)%default), &
             name//': default')
@@ -113,7 +113,7 @@ contains
          call checks%check(.not. any(keys(:i - 1)%group == keys(i)%group), &
             trim(keys(i)%group)//': group stands together')
       end do
-      call checks%check(find_key('load', 'radius') == 0 .and. find_key('', '') == 0, &
+      call checks%check(find_key('load.radius') == 0 .and. find_key('.') == 0, &
          'a key outside its group is not found')
       call checks%check(.not. known_group('loads'), 'unknown group')
    end subroutine test_lines
@@ -166,9 +166,8 @@ contains
             if (index(rule, 'without ') == 1) rule = rule(9:)
             rule = rule//'|'
             do while (len(rule) > 0)
-               dot = index(rule, '.')
                bar = index(rule, '|')
-               exists = exists .and. find_key(rule(:dot - 1), rule(dot + 1:bar - 1)) > 0
+               exists = exists .and. find_key(rule(:bar - 1)) > 0
                rule = rule(bar + 1:)
             end do
             cycle
@@ -176,7 +175,7 @@ contains
          dot = index(rule, '.')
          exists = exists .and. dot > 1 .and. equals > dot + 1
          if (.not. exists) return
-         decider = find_key(rule(:dot - 1), rule(dot + 1:equals - 1))
+         decider = find_key(rule(:equals - 1))
          exists = decider > 0
          if (.not. exists) return
          rule = rule(equals + 1:)//'|'
@@ -240,7 +239,7 @@ contains
          character(*), intent(in) :: word   !> One of its choices
          integer, intent(in) :: code        !> Constant of scene_types
 
-         call checks%check(word_position(trim(keys(find_key(group, name))%choices), word) == code, &
+         call checks%check(word_position(trim(keys(find_key(group//'.'//name))%choices), word) == code, &
             name//' '//word//': code')
       end subroutine agree
 
@@ -273,7 +272,7 @@ contains
          real(dp), intent(in) :: number     !> Number to judge
          logical, intent(in) :: allowed     !> Whether it is allowed
 
-         call checks%check(in_range(keys(find_key(group, name)), number) .eqv. allowed, name//': bound')
+         call checks%check(in_range(keys(find_key(group//'.'//name)), number) .eqv. allowed, name//': bound')
       end subroutine expect
 
    end subroutine test_ranges
@@ -287,13 +286,11 @@ contains
       call checks%check(index(nearest_key('load', repeat('x', 5000)), 'nearest') > 0, &
          'a very long name has a nearest key')
       call checks%check(nearest_group('lubricants') == 'lubricant', 'nearest group')
-      call checks%check(allowed_text(keys(find_key('contact', &
-         'poisson_ratio'))) == 'a number > -1.0 and <= 0.5', &
-         'allowed numbers')
-      call checks%check(index(allowed_text(keys(find_key('solver', 'steps_per_period'))), &
+      call checks%check(allowed_text(keys(find_key('contact.poisson_ratio'))) == 'a number > -1.0 and <= 0.5', 'allowed numbers')
+      call checks%check(index(allowed_text(keys(find_key('solver.steps_per_period'))), &
          'an integer >= 8 and <= ') == 1, &
          'allowed integers')
-      call checks%check(allowed_text(keys(find_key('film', 'rupture'))) == "one of 'half-pi' 'solved'", &
+      call checks%check(allowed_text(keys(find_key('film.rupture'))) == "one of 'half-pi' 'solved'", &
          'allowed words')
    end subroutine test_hints
 

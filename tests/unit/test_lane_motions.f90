@@ -5,8 +5,8 @@ module test_lane_motions
    use checks, only: check_list_t, same_bits
    use collocation_newton, only: correct, newton_pass_t
    use engine, only: ending_t, motion_state_t, request_t, start_of
-   use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, &
-                       kernel_solved_fast, kernel_solved_successive, new_film, steady_film
+   use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, kernel_solved_fast, &
+      kernel_solved_successive, new_film
    use flank_contact, only: flank_contact_t
    use kinds, only: dp
    use lane_block, only: lane_block_t

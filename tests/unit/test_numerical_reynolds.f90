@@ -5,10 +5,9 @@ module test_numerical_reynolds
    use checks, only: check_list_t
    use constants, only: half_pi, pi
    use kinds, only: dp
-   use numerical_reynolds, only: film_problem_t, film_solution_t, law_barus, law_constant, law_roelands, &
-      log_viscosity_ratio, reynolds_bad_input, reynolds_converged, reynolds_no_rigid_film, &
-      reynolds_unresolved, &
-      scale_film, solve_reynolds
+   use numerical_reynolds, only: film_solution_t, scale_film, solve_reynolds
+   use numerical_reynolds_grid, only: film_problem_t, law_barus, law_constant, law_roelands, log_viscosity_ratio
+   use numerical_reynolds_rupture, only: reynolds_bad_input, reynolds_converged, reynolds_no_rigid_film, reynolds_unresolved
    implicit none(type, external)
    private
 

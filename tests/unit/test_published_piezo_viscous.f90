@@ -4,8 +4,7 @@ module test_published_piezo_viscous
    use checks, only: check_list_t
    use film_law, only: overflow_load
    use kinds, only: dp
-   use published_piezo_viscous, only: piezo_coefficient, piezo_viscous_terms_load, &
-                                      published_piezo_viscous_load, squeeze_exponent_rate
+   use published_piezo_viscous, only: piezo_coefficient, published_piezo_viscous_load, squeeze_exponent_rate
    implicit none(type, external)
    private
 

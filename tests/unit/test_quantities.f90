@@ -210,7 +210,7 @@ contains
       real(dp), allocatable :: values(:, :), rows(:, :)
 
       allocate (values(1, 1), source=scene%excitation%force_amplitude)
-      call plan_table([find_key('load', 'force_amplitude')], values, plan)
+      call plan_table([find_key('load.force_amplitude')], values, plan)
       allocate (rows(3 + size(scene%campaign%record) + 7, 1), space)
       call solve_scenes(scene, plan, 1_int64, space, rows, error)
       row = rows(4:, 1)

@@ -2,11 +2,11 @@
 module test_regime
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
    use checks, only: check_list_t
+   use flank_elasticity, only: equivalent_radius, plane_strain_modulus
    use kinds, only: dp
-   use regime, only: contact_deflection, elasticity_group, equivalent_radius, film_elastohydrodynamic, &
-      film_iso_viscous, film_parameter, film_piezo_viscous, film_regime, film_regime_unknown, grubin_film, &
-      limiting_films, map_iso_viscous_elastic, map_iso_viscous_rigid, map_piezo_viscous_elastic, &
-      map_piezo_viscous_rigid, mapped_regime, plane_strain_modulus, viscosity_group
+   use regime, only: contact_deflection, elasticity_group, film_elastohydrodynamic, film_iso_viscous, film_parameter, &
+      film_piezo_viscous, film_regime, film_regime_unknown, grubin_film, limiting_films, map_iso_viscous_elastic, &
+      map_iso_viscous_rigid, map_piezo_viscous_elastic, map_piezo_viscous_rigid, mapped_regime, viscosity_group
    implicit none(type, external)
    private
 

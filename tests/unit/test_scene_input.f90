@@ -40,14 +40,13 @@ contains
             (input%entries(i)%present .eqv. (keys(i)%default /= '' .and. keys(i)%default /= 'required'))
       end do
       call checks%check(right, 'defaults: present where the table has one')
-      call checks%check_close(input%number('load', 'gravity'), 9.80665_dp, 0.0_dp, 'default number')
-      call checks%check_close(input%number('solver', 'tolerance'), 1.0e-14_dp, 0.0_dp, 'default tolerance')
-      call checks%check(input%count('solver', 'steps_per_period') == 512, 'default count')
-      call checks%check(input%flag('output', 'series') .and. .not. input%flag('output', 'overwrite'), &
+      call checks%check_close(input%number('load.gravity'), 9.80665_dp, 0.0_dp, 'default number')
+      call checks%check_close(input%number('solver.tolerance'), 1.0e-14_dp, 0.0_dp, 'default tolerance')
+      call checks%check(input%count('solver.steps_per_period') == 512, 'default count')
+      call checks%check(input%flag('output.series') .and. .not. input%flag('output.overwrite'), &
          'default flags')
-      call checks%check(input%word('film', 'rupture') == 'half-pi', 'default word')
-      call checks%check(input%words('output', &
-         'columns') == 'time applied_force film_thickness acceleration', 'default list')
+      call checks%check(input%word('film.rupture') == 'half-pi', 'default word')
+      call checks%check(input%words('output.columns') == 'time applied_force film_thickness acceleration', 'default list')
    end subroutine test_defaults
 
    !> Values of a text.
@@ -63,20 +62,20 @@ contains
          "&film law='piezo-viscous' / &output series=F, columns='time','film_load' directory='a b' /", &
          .false., faults)
       call checks%check(faults%count() == 0, 'values: no fault')
-      call checks%check_close(input%number('load', 'mass'), 2.5_dp, 0.0_dp, 'number')
-      call checks%check_close(input%number('load', 'steady_force'), -10.0_dp, 0.0_dp, &
+      call checks%check_close(input%number('load.mass'), 2.5_dp, 0.0_dp, 'number')
+      call checks%check_close(input%number('load.steady_force'), -10.0_dp, 0.0_dp, &
          'd as the exponent letter')
-      call checks%check(input%count('solver', 'steps_per_period') == 4096, 'count')
-      call checks%check(input%choice('solver', 'predictor') == predictor_previous, 'choice of a predictor')
-      call checks%check(input%choice('film', 'law') == law_piezo_viscous, 'choice of a law')
-      call checks%check(.not. input%flag('output', 'series'), 'flag')
-      call checks%check(input%words('output', 'columns') == 'time film_load', 'list')
-      call checks%check(input%word('output', 'directory') == 'a b', 'text with a blank')
-      call checks%check(input%is_given('load', 'mass') .and. .not. input%is_given('load', 'gravity'), &
+      call checks%check(input%count('solver.steps_per_period') == 4096, 'count')
+      call checks%check(input%choice('solver.predictor') == predictor_previous, 'choice of a predictor')
+      call checks%check(input%choice('film.law') == law_piezo_viscous, 'choice of a law')
+      call checks%check(.not. input%flag('output.series'), 'flag')
+      call checks%check(input%words('output.columns') == 'time film_load', 'list')
+      call checks%check(input%word('output.directory') == 'a b', 'text with a blank')
+      call checks%check(input%is_given('load.mass') .and. .not. input%is_given('load.gravity'), &
          'what was given')
       input = new_scene_input('f')
       call take(input, "&film law='iso-viscous  ' /", .false., faults)
-      call checks%check(faults%count() == 0 .and. input%choice('film', 'law') == law_iso_viscous, &
+      call checks%check(faults%count() == 0 .and. input%choice('film.law') == law_iso_viscous, &
          'a word with blanks behind it is that word')
    end subroutine test_values
 
@@ -122,8 +121,8 @@ contains
       call take(input, "&load mass=3.0 / &output columns='time','film_load' /", .false., faults)
       call take(input, "&load mass=4.0 / &output columns='acceleration' /", .true., faults)
       call checks%check(faults%count() == 0, 'override: no fault')
-      call checks%check_close(input%number('load', 'mass'), 4.0_dp, 0.0_dp, 'override: number')
-      call checks%check(input%words('output', 'columns') == 'acceleration', &
+      call checks%check_close(input%number('load.mass'), 4.0_dp, 0.0_dp, 'override: number')
+      call checks%check(input%words('output.columns') == 'acceleration', &
          'override: list replaced, not appended')
    end subroutine test_override
 
@@ -137,7 +136,8 @@ contains
       type(assignment_t), allocatable :: assignments(:)
 
       call scan_namelists(text, 'f', 1, assignments, faults)
-      call input%set_all(assignments, 'f', overriding, faults)
+      call input%set_all(assignments, 'f', overriding)
+      call faults%take(input%faults)
    end subroutine take
 
 end module test_scene_input

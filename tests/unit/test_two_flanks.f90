@@ -10,9 +10,9 @@ module test_two_flanks
    use kinds, only: dp
    use many_motions, only: solve_motions
    use vibration_severity, only: severity_of_record, severity_of_samples, vibration_severity_t
-   use node_extremes, only: seen_acceleration, seen_films, seen_loads, seen_net_load
+   use node_extremes, only: seen_loads, seen_net_load
    use carried_loads, only: net_load
-   use problem, only: film_at_rest, of_film, of_velocity, problem_of, problem_t, static_load
+   use problem, only: film_at_rest, of_film, of_velocity, problem_of, problem_t
    use scene_status, only: is_success, status_complete
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, rupture_half_pi, rupture_solved, &
                           scene_t

@@ -14,16 +14,12 @@ from result_writer import MOTION_COLUMNS, checksum, result_bytes, write_motion, 
 
 import rattle
 from rattle.checksums import checksums
-from rattle.former_names import FORMER_NAMES
 
 COLUMNS = [("time", "s"), ("acceleration", "m/s2")]
 ROWS = [[0.0, 1.5], [0.1, -2.5], [0.2, 1e-300]]
 
-# A former name is read as the present one.
 names = st.lists(
-    st.text(alphabet="abcdefghijklmnopqrstuvwxyz_0123456789", min_size=1, max_size=32).filter(
-        lambda name: name not in FORMER_NAMES
-    ),
+    st.text(alphabet="abcdefghijklmnopqrstuvwxyz_0123456789", min_size=1, max_size=32),
     min_size=1,
     max_size=7,
     unique=True,

@@ -1,4 +1,4 @@
-"""Checks of arguments of Fortran kernels, and calls of those of flat arrays for numpy arrays of one shape.
+"""Checks of arguments of Fortran kernels, and calls of those of numbers for numpy arrays of one shape.
 
 Nothing is cast; the messages name the argument.
 """
@@ -22,38 +22,46 @@ def elementwise(declared: Declared) -> Declared:
 
     The parameters stand in the order of the kernel's arguments.
     """
-    kernel = getattr(_kernels, f"wrap_{declared.__name__}", None)
-    if kernel is None:
-        raise ImportError(f"the compiled module has no {declared.__name__}")
     signature = inspect.signature(declared)
 
     @functools.wraps(declared)
     def call(*arguments: Any, **named: Any) -> Any:
-        return evaluate(kernel, signature.bind(*arguments, **named).arguments)
+        return evaluate(declared.__name__, signature.bind(*arguments, **named).arguments)
 
     return call
 
 
-def evaluate(kernel: Callable[..., Any], values: Mapping[str, Any], *options: int) -> Any:
-    """Call a kernel of flat arrays of equal length for arrays of equal shape; numbers stretch to it.
+def evaluate(kernel: str, values: Mapping[str, Any]) -> Any:
+    """Call a kernel by its name for arrays of equal shape; numbers stretch to it.
 
-    values: argument by name, in the order of the kernel. options: what the kernel takes behind the arrays.
+    values: argument by name, in the order of the kernel.
     """
+    flat, shape = flat_arrays(values)
+    # Where there is no film Fortran is asked for one, to learn how many results there are.
+    rows = np.array(flat if 0 not in shape else [np.zeros(1)] * len(flat))
+    results, count = _kernels.wrap_kernel(kernel, rows.T)
+    if count == 0:
+        raise ImportError(f"the compiled module has no {kernel}")
+    columns = results.T[: abs(count)].astype(np.int32 if count < 0 else np.float64)
+    found = tuple(shaped(column, shape) for column in columns)
+    return found if count > 1 else found[0]
+
+
+def flat_arrays(values: Mapping[str, Any]) -> tuple[list[np.ndarray], tuple[int, ...]]:
+    """Arrays of equal shape as flat ones, numbers stretched to it, and that shape."""
     arrays = {name: float_array(value, name) for name, value in values.items()}
     first, shape = next(((name, array.shape) for name, array in arrays.items() if array.ndim), ("", ()))
     for name, array in arrays.items():
         if array.ndim and array.shape != shape:
             raise ValueError(f"{name} has shape {array.shape}, {first} has {shape}")
-    flat = [np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1) for array in arrays.values()]
-    empty = 0 in shape
-    if empty:  # Fortran is asked for one film, to learn the number and types of the results
-        flat = [np.zeros(1) for _ in flat]
-    found = kernel(*flat, *options)
-    results = tuple(
-        (result[:0] if empty else result).reshape(shape) if shape else result[0].item()
-        for result in (found if isinstance(found, tuple) else (found,))
-    )
-    return results if isinstance(found, tuple) else results[0]
+    return [np.broadcast_to(array, shape).reshape(-1) for array in arrays.values()], shape
+
+
+def shaped(flat: np.ndarray, shape: tuple[int, ...]) -> Any:
+    """A flat result in the shape of the arguments; a number where they were numbers."""
+    if not shape:
+        return flat[0].item()
+    return (flat[:0] if 0 in shape else flat).reshape(shape)
 
 
 def float_array(value: Any, name: str) -> np.ndarray:

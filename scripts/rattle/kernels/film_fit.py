@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -58,8 +57,9 @@ def law_film_ratio(law: FilmLaw, speed_group: Any, load_group: Any, squeeze_rati
 
     A group that is not positive gives NaN or infinity, as the logarithm has it.
     """
-    values = {"speed_group": speed_group, "load_group": load_group, "squeeze_ratio": squeeze_ratio}
-    return evaluate(partial(_kernels.wrap_law_film_ratio, _coefficients(law)), values)
+    coefficients = dict(zip(FilmLaw._fields, _coefficients(law).tolist(), strict=True))
+    groups = {"speed_group": speed_group, "load_group": load_group, "squeeze_ratio": squeeze_ratio}
+    return evaluate("law_film_ratio", coefficients | groups)
 
 
 def judge_film_law(

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from rattle import _kernels
 from rattle.kernels._calls import elementwise, evaluate
 
 
@@ -17,7 +16,7 @@ def rupture_tangent(a: Any, *, solver: str = "fast") -> Any:
     """
     if solver not in ("fast", "successive"):
         raise ValueError(f"solver must be 'fast' or 'successive', not {solver!r}")
-    return evaluate(_kernels.wrap_rupture_tangent, {"a": a}, int(solver == "successive"))
+    return evaluate("rupture_tangent" if solver == "fast" else "rupture_tangent_successive", {"a": a})
 
 
 @elementwise
