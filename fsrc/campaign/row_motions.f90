@@ -3,7 +3,7 @@
 module row_motions
    use starting_state, only: keep_by_contacts, kept_by_contacts
    use coexisting_motions, only: coexisting_motions_t, told_motion_t
-   use engine, only: asks_for_same, motion_state_t, request_t
+   use engine, only: same_request, motion_state_t, request_t
    use errors, only: error_t
    use irregular_motion, only: follow_irregular
    use kinds, only: dp
@@ -184,7 +184,7 @@ contains
       left = .true.
       do while (any(left))
          first = findloc(left, .true., dim=1)
-         together = left .and. [(asks_for_same(requests(trials(first)%scene), requests(trials(i)%scene)), i=1, size(trials))]
+         together = left .and. [(same_request(requests(trials(first)%scene), requests(trials(i)%scene)), i=1, size(trials))]
          call solve_alike(pack([(i, i=1, size(trials))], together))
          if (must_stop() .or. allocated(error)) return
          left = left .and. .not. together

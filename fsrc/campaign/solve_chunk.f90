@@ -4,7 +4,7 @@ module solve_chunk
    use campaign_record, only: record_motions, record_number, record_row
    use automatic_model, only: nodes_stopped, reason_for_nodes, reason_t, scene_in_nodes, solve_in_memory
    use errors, only: error_t
-   use engine, only: asks_for_same, ending_t, motion_state_t, request_t, reserved_periods, start_of
+   use engine, only: same_request, ending_t, motion_state_t, request_t, reserved_periods, start_of
    use judge_scene, only: note_record, note_regime
    use judged_scene, only: film_model_stopped, judged_scene_t, quantity_value
    use key_table, only: find_key
@@ -378,7 +378,7 @@ contains
       type(request_t), intent(in) :: requests(:)
 
       alike = .true.
-      if (size(requests) > 1) alike = all(asks_for_same(requests, requests(1)))
+      if (size(requests) > 1) alike = all(same_request(requests, requests(1)))
    end function alike
 
    !> What is asked of the engine.

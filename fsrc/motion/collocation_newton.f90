@@ -1,7 +1,7 @@
 !> Newton's method for the equations of collocation (collocation_step), for a block of lanes: states at the
 !> nodes, load and slopes there, linear equations, corrections.
 module collocation_newton
-   use collocation_basis, only: pass_share, rounding
+   use collocation_basis, only: iteration_share, rounding
    use film_state, only: load_t
    use flank_contact, only: flank_contact_t, is_costly, load_of_contact, mixed_loads, overflow_load
    use kinds, only: dp
@@ -15,11 +15,11 @@ module collocation_newton
    !> Ratio of two corrections below which Newton's method is sure to converge quadratically.
    real(dp), parameter :: fast = 0.03_dp
 
-   !> What a pass of Newton's method says of the next.
-   type, public :: newton_pass_t
+   !> What an iteration of Newton's method says of the next.
+   type, public :: newton_iteration_t
       !> Largest correction of the accelerations, and largest residual before it [-]
-      real(dp), dimension(lanes) :: change = huge(1.0_dp), imbalance = huge(1.0_dp)
-   end type newton_pass_t
+      real(dp), dimension(lanes) :: change = huge(1.0_dp), residual = huge(1.0_dp)
+   end type newton_iteration_t
 
    public :: stage_states, scaled_load, residual_and_matrix, solve_lanes, correct, allowed, thinner
 
@@ -274,17 +274,17 @@ contains
    end subroutine solve_half
 
    !> Apply Newton's correction; lanes whose correction is small enough are done, those that diverge given up.
-   pure subroutine correct(contacts, busy, pass, imbalance, correction, last, block, k)
+   pure subroutine correct(contacts, busy, iteration, residual, correction, last, block, k)
       type(flank_contact_t), intent(in) :: contacts(lanes)
       logical, intent(inout) :: busy(lanes)
-      !> Number of this pass
-      integer, intent(in) :: pass
+      !> Number of this iteration
+      integer, intent(in) :: iteration
       !> Largest residual before the correction [-]
-      real(dp), intent(in) :: imbalance(lanes)
+      real(dp), intent(in) :: residual(lanes)
       !> Of the accelerations [-]
       real(dp), intent(in) :: correction(lanes, stages)
-      !> The pass before, then this one
-      type(newton_pass_t), intent(inout) :: last
+      !> The iteration before, then this one
+      type(newton_iteration_t), intent(inout) :: last
       type(lane_block_t), intent(inout) :: block
       real(dp), intent(inout) :: k(lanes, stages)
       real(dp) :: ratio, change, film_change
@@ -292,25 +292,25 @@ contains
 
       do l = 1, lanes
          if (.not. busy(l)) then
-            if (block%trust(l) > 0.0_dp .and. block%no_load(l)) block%trust(l) = 0.0_dp
+            if (block%accepted(l) > 0.0_dp .and. block%no_load(l)) block%accepted(l) = 0.0_dp
             cycle
          end if
          k(l, :) = k(l, :) + correction(l, :)
          change = maxval(abs(correction(l, :)))
          film_change = change*block%step(l)/allowed(block%film(l, 0), l, block) &
             *min(block%step(l), lienard_weight(thinner(block%film(l, 0), l, block), block%damping_rate(l), block%force(l)))
-         ! From the second pass on: the next correction will be smaller by the same factor at least, and where
+         ! From the second iteration on: the next correction will be smaller by the same factor at least, and where
          ! corrections fall fast by its square, if the slopes of the film law are the total ones. But not where a
          ! correction went too far, to where the film is stiff: the ones that lead back are small, and many.
-         ratio = merge(1.0_dp, min(1.0_dp, max(change/last%change(l), imbalance(l)/last%imbalance(l))), pass == 1)
+         ratio = merge(1.0_dp, min(1.0_dp, max(change/last%change(l), residual(l)/last%residual(l))), iteration == 1)
          if (ratio < fast .and. is_costly(contacts(l))) ratio = ratio*ratio
-         busy(l) = film_change*ratio > pass_share
-         if (busy(l) .and. pass > 3 .and. change > 2.0_dp*last%change(l)) then
+         busy(l) = film_change*ratio > iteration_share
+         if (busy(l) .and. iteration > 3 .and. change > 2.0_dp*last%change(l)) then
             busy(l) = .false.
-            block%trust(l) = 0.0_dp
+            block%accepted(l) = 0.0_dp
          end if
          last%change(l) = change
-         last%imbalance(l) = imbalance(l)
+         last%residual(l) = residual(l)
       end do
    end subroutine correct
 

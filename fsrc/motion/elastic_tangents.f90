@@ -5,7 +5,7 @@
 !> solution of -R_W dW = R_y dy: the matrix is that of Newton's method where this has ended, and every displacement is one more
 !> right-hand side. Gear, springs and films at the end follow from dW and dy as they follow from W and y.
 module elastic_tangents
-   use elastic_newton, only: imbalances, newton_matrix, slopes_t
+   use elastic_newton, only: residuals, newton_matrix, slopes_t
    use elastic_trial, only: sign_of, trial_t
    use flank_contact, only: flank_contact_t, width_compression
    use kinds, only: dp
@@ -50,7 +50,7 @@ contains
    end function tangents_in_units
 
    !> Carry the displacements of a lane to the end of a step that stands. Where a film has no load there, which no solved step has, the
-   !> step is not to be trusted.
+   !> step is not accepted.
    pure subroutine carry_tangents(contact, lane, trial, block, tangents)
       type(flank_contact_t), intent(in) :: contact
       integer, intent(in) :: lane
@@ -64,9 +64,9 @@ contains
       logical :: found
       integer :: i
 
-      call imbalances(contact, lane, block, trial, right, slopes, found)
+      call residuals(contact, lane, block, trial, right, slopes, found)
       if (.not. found) then
-         block%trust(lane) = 0.0_dp
+         block%accepted(lane) = 0.0_dp
          return
       end if
       call newton_matrix(contact%film%bends, lane, block, trial, slopes, matrix)

@@ -23,10 +23,10 @@ module elastic_trial
       !> which may fall to nothing
       real(dp) :: gain(rows, 2) = 0.0_dp, counted(2) = 0.0_dp
       !> Compression of flanks that bend by their width, at the start too; how the compression follows the film, as a share of the
-      !> gear's way, and what a load moves its film by
+      !> gear's displacement, and what a load moves its film by
       real(dp) :: width(rows, 2) = 0.0_dp, start_width(2) = 0.0_dp, follows(rows, 2) = 0.0_dp, compliance(rows, 2) = 0.0_dp
       !> A, and of the gear V and Z - Z at the start
-      real(dp) :: acceleration(rows) = 0.0_dp, lienard(rows) = 0.0_dp, way(rows) = 0.0_dp
+      real(dp) :: acceleration(rows) = 0.0_dp, lienard(rows) = 0.0_dp, displacement(rows) = 0.0_dp
    end type trial_t
 
    !> Signs of the gear's motion in the films
@@ -133,10 +133,10 @@ contains
          call weigh(once_rows, trial%acceleration, once)
          call weigh(twice_rows, trial%acceleration, twice)
          trial%lienard = block%lienard(lane, 0) + s*once
-         trial%way = s*(node_rows*block%lienard(lane, 0) + s*twice)
+         trial%displacement = s*(node_rows*block%lienard(lane, 0) + s*twice)
          do flank = 1, trial%flanks
             yielded(:, flank) = kappa*trial%gain(:, flank) - trial%counted(flank)
-            gap(:, flank) = trial%start(flank) + (sign_of(flank)*trial%way + yielded(:, flank))
+            gap(:, flank) = trial%start(flank) + (sign_of(flank)*trial%displacement + yielded(:, flank))
          end do
          if (contact%film%bends) then
             call bend(contact, lane, block, gap, yielded, trial)

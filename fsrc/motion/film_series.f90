@@ -89,7 +89,7 @@ contains
    !> Whether a problem has a Taylor series that is good enough.
    elemental logical function has_series(problem, accuracy)
       type(problem_t), intent(in) :: problem
-      !> Relative accuracy of the film asked for [-]
+      !> Relative accuracy of the film that is requested [-]
       real(dp), intent(in) :: accuracy
       type(film_series_t) :: series
 
@@ -131,7 +131,8 @@ contains
       end associate
    end subroutine set_coefficients
 
-   !> Series of film and Lienard variable of rigid teeth about the states of a block. A law without one has a damping rate that no step follows.
+   !> Series of film and Lienard variable of rigid teeth about the states of a block. A law without one has a damping rate that no
+   !> step follows.
    pure subroutine expand_motion(series, block)
       type(film_series_t), intent(in) :: series
       type(lane_block_t), intent(inout) :: block
@@ -154,8 +155,8 @@ contains
       end select
    end subroutine expand_motion
 
-   !> Series of films, gear and compressions of elastic teeth. The film of the coast flank is told apart: it is what backlash, drive
-   !> film and springs leave.
+   !> Series of films, gear and compressions of elastic teeth. The film of the coast flank has a series of its own: springs stand
+   !> between both.
    pure subroutine expand_springs(series, block)
       type(film_series_t), intent(in) :: series
       type(lane_block_t), intent(inout) :: block
@@ -242,15 +243,15 @@ contains
       do flank = 1, merge(2, 1, series%two_flanks)
          start = load_group(series, block%films(:, 0, flank), block%compression(:, flank, 0), block)
          place = load_group(series, next_films(:, flank), block%next_compression(:, flank), block)
-         place = merge(place, start, block%trust > 0.0_dp)
+         place = merge(place, start, block%accepted > 0.0_dp)
          rise = real(series%last_order, dp)*block%films(:, series%last_order, flank)
          do k = series%last_order - 1, 1, -1
             rise = rise*block%step + real(k, dp)*block%films(:, k, flank)
          end do
          ! What rounding of the load may move the velocity by
          if (series%kernel == kernel_reynolds_piezo) then
-            block%trust = block%trust*film_throughout(block%piezo_expansion(flank)%sigma_series, block%step)
-            call expand_under_load(merge(next_films(:, flank), block%films(:, 0, flank), block%trust > 0.0_dp), place, rise, &
+            block%accepted = block%accepted*film_throughout(block%piezo_expansion(flank)%sigma_series, block%step)
+            call expand_under_load(merge(next_films(:, flank), block%films(:, 0, flank), block%accepted > 0.0_dp), place, rise, &
                                    series%share*block%accuracy, block%damping, block%pressing, block%squeeze(flank), &
                                    block%piezo_expansion(flank))
             associate (there => block%piezo_expansion(flank))
@@ -271,7 +272,7 @@ contains
             defect = abs(velocity(l) - rise(l)) - equation_rounding*disturbance(l)
             granted = (real(series%last_order + 1, dp)*series%share) &
                *max(block%accuracy(l)*film_weight(thinner(l)), rounding*next_films(l, flank))
-            block%trust(l) = block%trust(l)*block%squeeze(flank)%inside(l)*merge(1.0_dp, 0.0_dp, defect <= granted)
+            block%accepted(l) = block%accepted(l)*block%squeeze(flank)%inside(l)*merge(1.0_dp, 0.0_dp, defect <= granted)
          end do
       end do
    end subroutine check_springs
@@ -285,18 +286,18 @@ contains
 
       select case (series%kernel)
       case (kernel_half_pi)
-         ! Its load is smooth: the last terms tell the error.
+         ! Its load is smooth: the last terms show the error.
       case (kernel_piezo)
          call reject_unresolved_growth(block%strength, block%damping, block%force, block%accuracy, block%film, block%lienard, &
-                                       block%next_film, block%next_lienard, block%trust)
+                                       block%next_film, block%next_lienard, block%accepted)
          if (series%two_flanks) &
             call reject_unresolved_growth(block%strength, block%damping, block%force, block%accuracy, &
                                           block%backlash - block%film(:, 0), -block%lienard(:, 0), &
-                                          block%backlash - block%next_film, -block%next_lienard, block%trust)
+                                          block%backlash - block%next_film, -block%next_lienard, block%accepted)
       case (kernel_solved_fast, kernel_reynolds_iso, kernel_reynolds_piezo)
          call check_forces(series, rise, block)
       case default
-         block%trust = 0.0_dp
+         block%accepted = 0.0_dp
       end select
    end subroutine check_ends
 
@@ -315,8 +316,8 @@ contains
       rate_of_damping = 0.0_dp
       phase = block%phase + block%step
       call turn_to(phase, circle)
-      film = merge(block%next_film, block%film(:, 0), block%trust > 0.0_dp)
-      lienard = merge(block%next_lienard, block%lienard(:, 0), block%trust > 0.0_dp)
+      film = merge(block%next_film, block%film(:, 0), block%accepted > 0.0_dp)
+      lienard = merge(block%next_lienard, block%lienard(:, 0), block%accepted > 0.0_dp)
       thinner = film
       call load_at_end(series, 1, film, lienard, block, carried, largest, rate_of_damping)
       if (series%two_flanks) then
@@ -324,8 +325,8 @@ contains
          call load_at_end(series, 2, block%backlash - film, -lienard, block, carried, largest, rate_of_damping)
       end if
       call reject_large_defect(series%share, block%static_load + force_values(block%oscillation, circle), block%force, &
-                               block%accuracy, carried, largest, rate_of_damping, thinner, lienard, rise, block%trust)
-      call move_forces(circle, block%trust, block%oscillation)
+                               block%accuracy, carried, largest, rate_of_damping, thinner, lienard, rise, block%accepted)
+      call move_forces(circle, block%accepted, block%oscillation)
    end subroutine check_forces
 
    !> Expand the load of one film at the ends of steps, and add it to what is carried.
@@ -345,7 +346,7 @@ contains
       if (series%kernel == kernel_reynolds_piezo) then
          associate (there => block%piezo_expansion(flank))
             call expand_reynolds_piezo(film, lienard, block%damping, block%pressing, there)
-            block%trust = block%trust*there%inside
+            block%accepted = block%accepted*there%inside
             call add_load(there%inverse_film, there%root, there%terms(:, 0), there%load_slope, carried, largest, rate_of_damping)
          end associate
       else

@@ -20,7 +20,7 @@ module inner_equations
       type(step_response_t) :: responses(2)
    end type trial_inner_t
 
-   public :: first_states, inner_imbalances, inner_matrix, follow_films, error_of_states, series_of_states
+   public :: first_states, inner_residuals, inner_matrix, follow_films, error_of_states, series_of_states
 
 contains
 
@@ -49,7 +49,7 @@ contains
    end subroutine first_states
 
    !> By how much the laws of films with a state miss at the nodes, whose loads follow from the films at all nodes.
-   pure subroutine inner_imbalances(contact, lane, block, trial, inner_trial, right, found)
+   pure subroutine inner_residuals(contact, lane, block, trial, inner_trial, right, found)
       type(flank_contact_t), intent(in) :: contact
       integer, intent(in) :: lane
       type(lane_block_t), intent(inout) :: block
@@ -73,7 +73,7 @@ contains
                                                                      trial%load(:stages, flank)
          end associate
       end do
-   end subroutine inner_imbalances
+   end subroutine inner_residuals
 
    !> Newton's matrix of films with a state.
    pure subroutine inner_matrix(lane, block, flanks, responses, matrix)

@@ -1,4 +1,4 @@
-!> Whether two motions that do not repeat are one, as far as their states at the ends of periods tell: by the distance of Kolmogorov
+!> Whether two motions that do not repeat are one, as far as their states at the ends of periods show: by the distance of Kolmogorov
 !> and Smirnov between the distributions of their films and of their velocities.
 module irregular_states
    use kinds, only: dp

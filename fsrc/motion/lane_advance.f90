@@ -55,7 +55,7 @@ contains
       end if
       !$omp simd
       do l = 1, lanes
-         block%trust(l) = merge(1.0_dp, 0.0_dp, block%next_film(l) > smallest_film_ratio*block%film(l, 0)) &
+         block%accepted(l) = merge(1.0_dp, 0.0_dp, block%next_film(l) > smallest_film_ratio*block%film(l, 0)) &
             *merge(1.0_dp, 0.0_dp, block%next_film(l) < largest_film_ratio*block%film(l, 0)) &
             *merge(1.0_dp, 0.0_dp, block%backlash(l) - block%next_film(l) &
                    > smallest_film_ratio*(block%backlash(l) - block%film(l, 0))) &
@@ -106,7 +106,7 @@ contains
          ! A lane that rests has no backlash.
          next_films(:, 2) = merge(next_films(:, 2), block%films(:, 0, 2), block%backlash < huge(1.0_dp))
       end if
-      block%trust = 1.0_dp
+      block%accepted = 1.0_dp
       do flank = 1, flanks
          changed(:, 1) = next_films(:, flank)/block%films(:, 0, flank)
          changed(:, 2) = 1.0_dp
@@ -114,12 +114,12 @@ contains
          do k = 1, 2
             !$omp simd
             do l = 1, lanes
-               block%trust(l) = block%trust(l)*merge(1.0_dp, 0.0_dp, changed(l, k) > smallest_film_ratio) &
+               block%accepted(l) = block%accepted(l)*merge(1.0_dp, 0.0_dp, changed(l, k) > smallest_film_ratio) &
                   *merge(1.0_dp, 0.0_dp, changed(l, k) < largest_film_ratio)
             end do
          end do
       end do
-      block%trust = block%trust*merge(1.0_dp, 0.0_dp, abs(block%next_lienard) < huge(1.0_dp)) &
+      block%accepted = block%accepted*merge(1.0_dp, 0.0_dp, abs(block%next_lienard) < huge(1.0_dp)) &
          *merge(1.0_dp, 0.0_dp, block%damping_rate < largest_series_rate)
       call check_springs(series, next_films, block)
    end subroutine take_springs_step
@@ -139,11 +139,11 @@ contains
       quiet = 0.0_dp
       !$omp simd private(calm) reduction(+: quiet)
       do l = 1, lanes
-         block%film(l, 0) = merge(block%next_film(l), block%film(l, 0), block%trust(l) > 0.0_dp)
-         block%lienard(l, 0) = merge(block%next_lienard(l), block%lienard(l, 0), block%trust(l) > 0.0_dp)
-         block%limit(l) = merge(1.0_dp, 0.25_dp*block%step(l), block%trust(l) > 0.0_dp)
-         block%remaining(l) = merge(block%remaining(l) - block%step(l), 1.0_dp, block%trust(l) > 0.0_dp)
-         block%phase(l) = block%phase(l) + block%trust(l)*block%step(l)
+         block%film(l, 0) = merge(block%next_film(l), block%film(l, 0), block%accepted(l) > 0.0_dp)
+         block%lienard(l, 0) = merge(block%next_lienard(l), block%lienard(l, 0), block%accepted(l) > 0.0_dp)
+         block%limit(l) = merge(1.0_dp, 0.25_dp*block%step(l), block%accepted(l) > 0.0_dp)
+         block%remaining(l) = merge(block%remaining(l) - block%step(l), 1.0_dp, block%accepted(l) > 0.0_dp)
+         block%phase(l) = block%phase(l) + block%accepted(l)*block%step(l)
          block%period_steps(l) = block%period_steps(l) + 1.0_dp
          calm = merge(1.0_dp, 0.0_dp, block%remaining(l) > 0.0_dp) &
             *merge(1.0_dp, 0.0_dp, block%limit(l) > shortest_step) &

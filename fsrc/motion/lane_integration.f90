@@ -49,7 +49,7 @@ contains
       type(motion_state_t), intent(in) :: starts(:)
       !> Those of them to be solved, in the order in which lanes take them
       integer, intent(in) :: queue(:)
-      !> What is asked for
+      !> What is requested
       type(request_t), intent(in) :: request
       !> Samples: sample, number of its state, scene
       real(dp), contiguous, intent(inout) :: states(:, :, :)
@@ -57,8 +57,8 @@ contains
       type(ending_t), intent(inout) :: endings(:)
       !> What the watchers of the scenes carried on have seen, kept up
       type(orbit_watch_t), optional, intent(inout) :: watches(:)
-      !> What the steps of the sampled periods tell, scene by scene; what stands in the record of a motion that begins within
-      !> its sampled periods is kept and added to
+      !> Records of the steps of the sampled periods, scene by scene; that of a motion that begins within its sampled periods is
+      !> kept and added to
       type(window_record_t), optional, intent(inout) :: records(:)
       !> Periodic motions that are known, scene by scene
       type(known_motions_t), optional, intent(in) :: known(:)
@@ -204,7 +204,7 @@ contains
       integer :: l
 
       do l = 1, lanes
-         if (run%samples%sampled(l) .and. run%block%trust(l) > 0.0_dp) &
+         if (run%samples%sampled(l) .and. run%block%accepted(l) > 0.0_dp) &
             call take_nodes(run%block, l, run%inner(l), records(run%watches(l)%scene)%longest_piece, run%nodes(l))
       end do
    end subroutine take_lane_nodes

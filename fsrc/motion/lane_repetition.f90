@@ -1,5 +1,5 @@
-!> Whether the motion of a lane repeats, asked at the end of every period: within the accuracy, so that a run until steady ends;
-!> to the last bit, so that what follows is known; and where a motion that settles slowly will come to rest.
+!> Whether the motion of a lane repeats, looked for at the end of every period: within the accuracy, so that a run until steady
+!> ends; to the last bit, so that nothing more has to be computed; and where a motion that settles slowly will come to rest.
 !>
 !> The forecast is an extrapolation of three successive differences (fsrc/THEORY.md, section 7); where they are parallel, because
 !> the motion forgets all but one direction at once, one ratio does (Aitken). It costs no period more.
@@ -52,7 +52,7 @@ contains
       integer, intent(in) :: lane
       !> What moves there
       type(problem_t), intent(in) :: problem
-      !> What is asked for
+      !> What is requested
       type(request_t), intent(in) :: request
       !> Samples: sample, number of its state, scene
       real(dp), contiguous, intent(inout) :: states(:, :, :)
@@ -91,7 +91,7 @@ contains
       type(problem_t), intent(in) :: problem
       !> What is known of it
       type(known_motions_t), intent(in) :: known
-      !> What is asked for
+      !> What is requested
       type(request_t), intent(in) :: request
       !> The block, its period counted and its state that of the period's end
       type(lane_run_t), intent(inout) :: run

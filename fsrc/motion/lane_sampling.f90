@@ -1,5 +1,5 @@
 !> Samples of the motions of a block at equidistant phases, from the series of the steps they lie in.
-!> Nothing is evaluated where no sample is asked for.
+!> Nothing is evaluated where no sample is requested.
 module lane_sampling
    use kinds, only: dp
    use lane_block, only: lane_block_t
@@ -70,7 +70,7 @@ contains
 
       number = real(samples%per_period, dp)
       do l = 1, lanes
-         if (.not. (samples%sampled(l) .and. block%trust(l) > 0.0_dp)) cycle
+         if (.not. (samples%sampled(l) .and. block%accepted(l) > 0.0_dp)) cycle
          film_series = block%film(l, :)
          lienard_series = block%lienard(l, :)
          carried = carried_numbers(l, block)

@@ -1,5 +1,5 @@
 !> How the numbers of a state stand in a lane: film, Lienard variable and compressions scaled in its block, states of films beside it.
-!> This is the one place of the engine that knows which number is which.
+!> No other place of the engine depends on which number is which.
 module lane_state
    use engine, only: motion_state_t
    use kinds, only: dp
@@ -15,7 +15,7 @@ module lane_state
 
 contains
 
-   !> State of a lane in units; the caller knows its period and method.
+   !> State of a lane in units; the caller sets its period and method.
    pure type(motion_state_t) function state_of_lane(lane, block, inner) result(state)
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block

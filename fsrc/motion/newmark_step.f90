@@ -4,7 +4,7 @@
 !>    h_i  = h_(i-1) + dt z'_(i-1) + dt^2/4 (z''_(i-1) + z''_i)
 !>    z'_i = z'_(i-1) + dt/2 (z''_(i-1) + z''_i)
 !>
-!> A pass evaluates the film at the present iterate. `successive`: its load gives z''_i, as in the paper.
+!> An iteration evaluates the film at the present iterate. `successive`: its load gives z''_i, as in the paper.
 !> `newton`: the load is linearised about the iterate, which gives z''_i from one linear equation.
 !>
 !> It is the paper's method for the paper's rigid teeth; the checker refuses it for elastic ones.
@@ -53,18 +53,18 @@ contains
       !> Status of scene_status
       integer, intent(out) :: status
       type(load_t) :: load
-      real(dp) :: known_film, known_velocity, old_film, film_weight, velocity_weight, &
+      real(dp) :: predicted_film, predicted_velocity, old_film, film_weight, velocity_weight, &
                   smallest_film
 
       ! Factors of z'' at the end of the step, and what h and z' would be there if it were zero.
       velocity_weight = 0.5_dp*time_step
       film_weight = velocity_weight*velocity_weight
-      known_film = state%film + time_step*state%velocity + film_weight*state%acceleration
-      known_velocity = state%velocity + velocity_weight*state%acceleration
+      predicted_film = state%film + time_step*state%velocity + film_weight*state%acceleration
+      predicted_velocity = state%velocity + velocity_weight*state%acceleration
       next = state
       if (request%extrapolate) then
-         next%film = known_film + film_weight*state%acceleration
-         next%velocity = known_velocity + velocity_weight*state%acceleration
+         next%film = predicted_film + film_weight*state%acceleration
+         next%velocity = predicted_velocity + velocity_weight*state%acceleration
       end if
       smallest_film = smallest_film_ratio*thinner_film(problem, state%film)
       status = status_film_lost
@@ -77,15 +77,15 @@ contains
             return
          end if
          if (request%by_newton) then
-            next%acceleration = (load%load + load%by_film*(known_film - next%film) + &
-                                 load%by_velocity*(known_velocity - next%velocity) - force - problem%weight)/ &
+            next%acceleration = (load%load + load%by_film*(predicted_film - next%film) + &
+                                 load%by_velocity*(predicted_velocity - next%velocity) - force - problem%weight)/ &
                                 (problem%mass - load%by_film*film_weight - load%by_velocity*velocity_weight)
          else
             next%acceleration = (load%load - force - problem%weight)/problem%mass
          end if
          old_film = next%film
-         next%film = known_film + film_weight*next%acceleration
-         next%velocity = known_velocity + velocity_weight*next%acceleration
+         next%film = predicted_film + film_weight*next%acceleration
+         next%velocity = predicted_velocity + velocity_weight*next%acceleration
          if (thinner_film(problem, next%film) <= smallest_film) return
          if (abs(next%film - old_film) < request%tolerance) then
             status = status_complete

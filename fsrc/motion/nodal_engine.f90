@@ -25,8 +25,8 @@ module nodal_engine
    implicit none(type, external)
    private
 
-   !> Newton's passes for the gear at rest: of them all, and before nodes change one by one
-   integer, parameter :: most_rest_passes = 120, free_rest_passes = 80
+   !> Newton's iterations for the gear at rest: of them all, and before nodes change one by one
+   integer, parameter :: most_rest_iterations = 120, free_rest_iterations = 80
    !> By how much the load grows from one film at rest to the next, at most and at least
    real(dp), parameter :: largest_growth = 1.4_dp, least_growth = 1.005_dp
    !> Share up to which two loads are the same
@@ -44,21 +44,21 @@ contains
       !> What moves
       type(problem_t), intent(in) :: problem
       type(nodal_choice_t), intent(in) :: choice
-      !> What is asked for; the accuracy is that of the choice
+      !> What is requested; the accuracy is that of the choice
       type(request_t), intent(in) :: request
       !> Takes the samples
       class(sample_sink_t), intent(inout) :: sink
-      !> Told of progress
+      !> Is called after every period
       class(motion_watcher_t), intent(inout) :: watcher
       !> State to carry on from, and then the one from which the run can be extended
       type(checkpoint_t), intent(inout) :: checkpoint
       !> How it ended
       type(ending_t), intent(out) :: ending
-      !> What is asked for of the window, and then what its steps tell
+      !> What is requested of the window, and then the record of its steps
       type(window_record_t), intent(inout) :: record
       !> Set if the sink failed
       type(error_t), allocatable, intent(out) :: error
-      !> What is asked for of pressures and films over the contact, and then those of the window
+      !> What is requested of pressures and films over the contact, and then those of the window
       type(nodal_profiles_t), intent(inout), optional :: profiles
       type(nodal_contact_t) :: contact
       type(gear_t) :: gear
@@ -197,12 +197,11 @@ contains
       !> Ratio of distances that is not trusted
       real(dp), parameter :: largest_ratio = 0.9_dp
       real(dp) :: distances(size(states, 2)), ratio
-      integer :: period, age, known
+      integer :: period, age
 
       do orbit = 1, longest_orbit
-         known = min(size(states, 2) - orbit, 3*orbit)
-         if (known < 3*orbit) exit
-         do age = 1, known
+         if (size(states, 2) - orbit < 3*orbit) exit
+         do age = 1, 3*orbit
             distances(age) = distance_of_states(problem, fastest, states(:, age), states(:, age + orbit))
          end do
          ratio = 0.0_dp
@@ -262,7 +261,7 @@ contains
       real(dp) :: start(state_size(problem)), loads(2), target, load(2), by_gap(2), change, changes, correction, share
       real(dp) :: growth, solved_load
       type(nodal_flank_t) :: solved
-      integer :: flank, pass, j
+      integer :: flank, iteration, j
 
       at_rest = step_weights_t()
       start = initial_state(problem)
@@ -270,7 +269,7 @@ contains
       if (.not. found) return
       loads = 0.0_dp
       loads(:gear%flanks) = start(of_drive_compression:of_velocity + gear%flanks)/(problem%contact%compliance*gear%load_unit)
-      ! A closure may have one film under two loads, and then tells the other one or none.
+      ! A closure may have one film under two loads, and then gives the other load or none.
       target = static_load(problem)/gear%load_unit + loads(2)
       if (target > 0.0_dp .and. abs(loads(1) - target) > same_load*target) loads(1) = target
       do flank = 1, gear%flanks
@@ -323,11 +322,11 @@ contains
             film%past_film = 0.0_dp
          end associate
       end do
-      do pass = 1, most_rest_passes
+      do iteration = 1, most_rest_iterations
          load = 0.0_dp
          by_gap = 0.0_dp
          do flank = 1, gear%flanks
-            call respond(contact, pass > free_rest_passes, motion%flanks(flank), load(flank), by_gap(flank), found)
+            call respond(contact, iteration > free_rest_iterations, motion%flanks(flank), load(flank), by_gap(flank), found)
             if (.not. found) return
          end do
          correction = (load(1) - load(2) - static_load(problem)/gear%load_unit)/(-sum(by_gap))
@@ -370,10 +369,10 @@ contains
       logical, intent(out) :: found
       real(dp), parameter :: last_change = 1.0e-9_dp
       real(dp) :: load, by_gap, change
-      integer :: pass
+      integer :: iteration
 
-      do pass = 1, most_rest_passes
-         call respond(contact, pass > free_rest_passes, film, load, by_gap, found)
+      do iteration = 1, most_rest_iterations
+         call respond(contact, iteration > free_rest_iterations, film, load, by_gap, found)
          if (.not. found) return
          call correct_flank(contact, 1.0_dp, (target - load)/by_gap, film, change)
          film%fourth = shares_of_fourth_order(film%pressures(:, 0))

@@ -16,9 +16,9 @@ module nodal_profiles
       real(dp), allocatable :: pressures(:), films(:)
    end type nodal_profile_t
 
-   !> What is asked for, and then the profiles of a window.
+   !> What is requested, and then the profiles of a window.
    type, public :: nodal_profiles_t
-      !> Whether any are asked for
+      !> Whether any are requested
       logical :: wanted = .false.
       !> Phases of the last period, in their order [periods]; none: at the largest loads
       real(dp), allocatable :: phases(:)
@@ -40,7 +40,7 @@ contains
    !> Begin a window.
    pure subroutine start_profiles(contact, profiles)
       type(nodal_contact_t), intent(in) :: contact
-      !> What is asked for stays
+      !> What is requested stays
       type(nodal_profiles_t), intent(inout) :: profiles
       integer, parameter :: first_room = 16
 
@@ -52,7 +52,7 @@ contains
       if (.not. allocated(profiles%kept)) allocate (profiles%kept(first_room))
    end subroutine start_profiles
 
-   !> Keep what is asked for of an accepted step.
+   !> Keep what is requested of an accepted step.
    pure subroutine note_profiles(contact, flanks, motion, period, is_last, profiles)
       type(nodal_contact_t), intent(in) :: contact
       !> How many there are

@@ -3,8 +3,8 @@
 !>
 !>     mu Z'' = M_1 - M_2 - F(T) ,   G_1 = Z ,   G_2 = B - Z .
 !>
-!> A pass of Newton's method solves each film for a gap that is still to be corrected, M + S dG, so that the gear has one equation.
-!> A step of a rigid film that ends beyond the bound is thrown away and done again in nodes. Steps end where periods do.
+!> An iteration of Newton's method solves each film for a gap that is still to be corrected, M + S dG, so that the gear has one
+!> equation. A step of a rigid film that ends beyond the bound is thrown away and done again in nodes. Steps end where periods do.
 module nodal_step
    use carried_loads, only: films_of
    use clock, only: wall_seconds
@@ -32,7 +32,7 @@ module nodal_step
       real(dp) :: bound = 1.0e-2_dp
       !> S of the grid [-]
       real(dp) :: scale = 3.0_dp
-      !> When no more period is begun, of the motion and of what is learned of it, on the clock of wall_seconds [s]
+      !> When no more period is begun, of the motion and of what follows from it, on the clock of wall_seconds [s]
       real(dp) :: ends_at = huge(1.0_dp)
    end type nodal_choice_t
 
@@ -80,8 +80,8 @@ module nodal_step
    !> distance that counts as error of a step, of each order
    real(dp), parameter :: shortest_step = 1.0e-13_dp, most_growth = 1.5_dp, longest_step = 0.02_dp, &
                           error_shares(3) = [0.5_dp, 0.3_dp, 0.12_dp]
-   !> Newton's passes: of them all, before nodes change one by one, and the last correction of them [-]
-   integer, parameter :: most_passes = 40, free_passes = 8
+   !> Newton's iterations: of them all, before nodes change one by one, and the last correction of them [-]
+   integer, parameter :: most_iterations = 40, free_iterations = 8
    real(dp), parameter :: last_correction = 1.0e-7_dp
    !> Rejected steps in a row after which an unloaded film is torn, its load and the times it may be in a period
    integer, parameter :: most_rejected = 6, most_torn = 20
@@ -316,7 +316,7 @@ contains
       type(ending_t), intent(inout) :: ending
       logical, intent(out) :: solved
       real(dp) :: past_position, past_velocity, force, load(2), by_gap(2), correction, share, change, changes, scale
-      integer :: flank, pass
+      integer :: flank, iteration
 
       associate (a0 => weights%rate(0))
          past_position = dot_product(weights%rate(1:), motion%position(1:difference_times))
@@ -329,11 +329,11 @@ contains
             motion%flanks(flank)%gap(0) = merge(motion%position(0), gear%backlash - motion%position(0), flank == 1)
          end do
          solved = .false.
-         do pass = 1, most_passes
+         do iteration = 1, most_iterations
             load = 0.0_dp
             by_gap = 0.0_dp
             do flank = 1, gear%flanks
-               call respond(contact, pass > free_passes, motion%flanks(flank), load(flank), by_gap(flank), solved)
+               call respond(contact, iteration > free_iterations, motion%flanks(flank), load(flank), by_gap(flank), solved)
                ending%count%evaluations = ending%count%evaluations + 1
                if (.not. solved) return
             end do

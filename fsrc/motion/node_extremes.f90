@@ -69,7 +69,7 @@ contains
 
       call range_of(values, smallest, largest)
       call find_highest(1.0_dp, largest, largest - smallest, highest)
-      ! The largest pressure of the film is never asked where it is smallest.
+      ! Where the largest pressure of the film is smallest is never requested.
       if (quantity /= seen_pressure) call find_highest(-1.0_dp, -smallest, largest - smallest, lowest)
 
    contains

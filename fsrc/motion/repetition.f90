@@ -1,4 +1,4 @@
-!> Does a motion repeat? It is asked in five ways, each for a purpose of its own (fsrc/THEORY.md, section 7):
+!> Does a motion repeat? It is looked for in five ways, each for a purpose of its own (fsrc/THEORY.md, section 7):
 !>
 !>    to the last bit        this module, `look_back`: the periods in between come again for ever and need not be computed;
 !>    within the accuracy    this module, `note_state`: a run until steady ends, with a bound of what the motion is still away;

@@ -96,7 +96,7 @@ contains
       !> Its lanes
       integer, intent(in) :: first
       integer, intent(in) :: last
-      !> The films, A and B known
+      !> The films, with A and B
       type(reynolds_piezo_expansion_t), intent(inout) :: expansion
       !> Pieces by `coarse_log` of 2 + |A|, which is straight between powers of two, as the ends of the pieces are
       real(dp), parameter :: pieces_per_log = real(octave_pieces, dp)/octave, first_log = log_of_one + octave

@@ -1,5 +1,5 @@
-!> The Reynolds piezo-viscous film of elastic teeth, for a block of lanes: where the spring tells the load and the film law is taken
-!> inverted (fsrc/THEORY.md, section 4).
+!> The Reynolds piezo-viscous film of elastic teeth, for a block of lanes: whose load is that of its spring, so that the film law is
+!> taken inverted (fsrc/THEORY.md, section 4).
 module reynolds_piezo_under_load
    use kinds, only: dp
    use lane_functions, only: lanes
@@ -15,8 +15,8 @@ module reynolds_piezo_under_load
 contains
 
    !> Expand the load of a Reynolds piezo-viscous film about the velocity at which it carries that of its spring: Newton's method
-   !> from a velocity near by, whose first pass is enough for most, and where it does not lead there the film law inverted. A lane
-   !> whose film and load are what they were is left as it is, or its bits would depend on the others.
+   !> from a velocity near by, whose first iteration is enough for most, and where it does not lead there the film law inverted. A
+   !> lane whose film and load are what they were is left as it is, or its bits would depend on the others.
    pure subroutine expand_under_load(film, load, near, accuracy, rate, pressing, squeeze, expansion)
       !> H or C, and its load group [-]
       real(dp), intent(in) :: film(lanes)
@@ -28,25 +28,25 @@ contains
       !> c [periods] and b [-]
       real(dp), intent(in) :: rate(lanes)
       real(dp), intent(in) :: pressing(lanes)
-      !> The load that it was last expanded under, and whether a film carries that
+      !> The load that it was expanded under last, and whether a film carries that
       type(squeeze_expansion_t), intent(inout) :: squeeze
       !> The film
       type(reynolds_piezo_expansion_t), intent(inout) :: expansion
-      !> Largest step of asinh A that a pass is trusted with, and share of what a step may be off that a velocity is left off by
+      !> Largest step of asinh A that an iteration may take, and share of what a step may be off that a velocity is left off by
       real(dp), parameter :: longest = 0.5_dp, left = 0.01_dp
       real(dp), dimension(lanes) :: velocity, of_one, change, tolerance
-      logical :: known(lanes)
+      logical :: unchanged(lanes)
       integer :: l
 
-      known = abs(load - squeeze%load) <= 0.0_dp .and. abs(film - expansion%film) <= 0.0_dp
-      if (all(known)) return
+      unchanged = abs(load - squeeze%load) <= 0.0_dp .and. abs(film - expansion%film) <= 0.0_dp
+      if (all(unchanged)) return
       squeeze%load = load
       of_one = sqrt(max(film, tiny(1.0_dp)))/rate
-      velocity = merge(expansion%lienard, near, known)
+      velocity = merge(expansion%lienard, near, unchanged)
       call expand_reynolds_piezo(film, velocity, rate, pressing, expansion)
       change = (load - expansion%terms(:, 0))/expansion%load_slope
       do l = 1, lanes
-         if (known(l)) cycle
+         if (unchanged(l)) cycle
          squeeze%inside(l) = expansion%inside(l)
          if (expansion%inside(l) > 0.0_dp .and. abs(change(l)) < longest*sqrt(1.0_dp + expansion%group(l)**2)) then
             velocity(l) = velocity(l) + change(l)*of_one(l)
@@ -58,7 +58,7 @@ contains
       change = (load - expansion%terms(:, 0))/expansion%load_slope*of_one
       tolerance = left*accuracy*film_weight(film)
       do l = 1, lanes
-         if (known(l) .or. abs(change(l)) <= tolerance(l)) cycle
+         if (unchanged(l) .or. abs(change(l)) <= tolerance(l)) cycle
          call invert_law(load(l), expansion%pressure_group(l), of_one(l), near(l), velocity(l), squeeze%inside(l))
       end do
       call expand_reynolds_piezo(film, velocity, rate, pressing, expansion)

@@ -17,7 +17,7 @@ module taylor_piezo_viscous
    real(dp), parameter :: most_growth = 20.0_dp, negligible = -8.0_dp
 
    !> Damping beyond this would overflow the coefficients [1/periods]. The load of such a lane is held there;
-   !> its damping rate, which is told as it is, keeps the series from being used.
+   !> its damping rate, which stays as it is, keeps the series from being used.
    real(dp), parameter :: largest_rate = 1.0e14_dp
 
    public :: piezo_viscous_series, reject_unresolved_growth
@@ -63,7 +63,7 @@ contains
    !> factor within one step of free fall, which the coefficients do not show. Logarithms to the base 2 of the load over the force
    !> show it: log2(S/P) = log2(a/P) - 7/2 log2 H - c V/ln 2.
    pure subroutine reject_unresolved_growth(strength, rate, force, accuracy, film, lienard, next_film, &
-                                              next_lienard, trust)
+                                              next_lienard, accepted)
       !> a [-]
       real(dp), intent(in) :: strength(lanes)
       !> c [periods]
@@ -78,8 +78,8 @@ contains
       !> H and V at its end [-]
       real(dp), intent(in) :: next_film(lanes)
       real(dp), intent(in) :: next_lienard(lanes)
-      !> 1 where the step is trusted, set to 0 where it is rejected
-      real(dp), intent(inout) :: trust(lanes)
+      !> 1 where the step is accepted, set to 0 where it is rejected
+      real(dp), intent(inout) :: accepted(lanes)
       real(dp), parameter :: octaves_per_unit = 1.4426950408889634_dp
       real(dp) :: growth, load
       integer :: l
@@ -90,7 +90,7 @@ contains
             - octaves_per_unit*rate(l)*(next_lienard(l) - lienard(l))
          load = (coarse_log(strength(l)) - coarse_log(force(l)*accuracy(l)))/octave &
             - 3.5_dp/octave*(coarse_log(film(l)) - log_of_one) - octaves_per_unit*rate(l)*lienard(l) + growth
-         trust(l) = trust(l)*(1.0_dp - merge(1.0_dp, 0.0_dp, growth > most_growth) &
+         accepted(l) = accepted(l)*(1.0_dp - merge(1.0_dp, 0.0_dp, growth > most_growth) &
                               *merge(1.0_dp, 0.0_dp, load > negligible))
       end do
    end subroutine reject_unresolved_growth

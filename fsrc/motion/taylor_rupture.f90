@@ -154,7 +154,7 @@ contains
 
    !> Reject steps whose series violates the equation of motion at their end.
    !>
-   !> The last terms of a series tell its error only where the terms before them have begun to fall. There are two cases in which
+   !> The last terms of a series show its error only where the terms before them have begun to fall. There are two cases in which
    !> they have not. A tooth in free flight with A >> 1 has a load that is far below the force, and so are its coefficients: the
    !> last terms are those of the force alone, which fall at once; where V goes through zero, the load is up to a million times
    !> the one at the start. Or the load matters, but its series is close to its radius of convergence, and term after term is as
@@ -163,7 +163,7 @@ contains
    !> must not exceed what the step control grants the last term, in the measure of module taylor_step_control at the end of the
    !> step, less the rounding of the forces.
    pure subroutine reject_large_defect(error_share, load, force, accuracy, carried, largest, rate_of_damping, film, lienard, &
-                                       rise, trust)
+                                       rise, accepted)
       !> Share of the accuracy that a step may use up, over its length [1/periods]
       real(dp), intent(in) :: error_share
       !> q + f cos(2 pi x) at the end of the step, and P = q + f [-]
@@ -179,8 +179,8 @@ contains
       real(dp), intent(in) :: film(lanes)
       real(dp), intent(in) :: lienard(lanes)
       real(dp), intent(in) :: rise(lanes)
-      !> 1 where the step is trusted, set to 0 where it is rejected
-      real(dp), intent(inout) :: trust(lanes)
+      !> 1 where the step is accepted, set to 0 where it is rejected
+      real(dp), intent(inout) :: accepted(lanes)
       real(dp) :: defect, square_film, granted
       integer :: l
 
@@ -191,7 +191,7 @@ contains
          ! 1 + H**2, and w (1 + H**2) times the accuracy.
          square_film = 1.0_dp + film(l)*film(l)
          granted = (most_defect*real(rupture_order + 1, dp))*error_share*film(l)*max(accuracy(l), rounding*square_film)
-         trust(l) = trust(l)*merge(1.0_dp, 0.0_dp, defect*square_film <= granted*(free_rate + rate_of_damping(l))) &
+         accepted(l) = accepted(l)*merge(1.0_dp, 0.0_dp, defect*square_film <= granted*(free_rate + rate_of_damping(l))) &
             *merge(1.0_dp, 0.0_dp, defect*rate_of_damping(l)*film(l) <= granted*load_error*force(l))
       end do
    end subroutine reject_large_defect

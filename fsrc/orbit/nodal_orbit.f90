@@ -4,8 +4,8 @@
 !> The state of such a motion has all pressures in it, but after a period only what has become of position and velocity of the gear is
 !> left of a disturbance: the film that the disturbance met is gone. Two neighbours (module nodal_tangent) are followed through a
 !> period first, so that their pressures are those that belong to their gears; then their positions and velocities at both ends of
-!> the next one tell the two multipliers that count, X(end) = J X(start), and the others are as nothing beside these. It is seen
-!> that the periods after tell the same. Newton's correction, (X(end) - X(start)) a = start - end, is applied to all histories.
+!> the next one give the two multipliers that count, X(end) = J X(start), and the others are as nothing beside these. It is seen
+!> that the periods after give the same. Newton's correction, (X(end) - X(start)) a = start - end, is applied to all histories.
 module nodal_orbit
    use constants, only: two_pi
    use engine, only: ending_t
@@ -26,7 +26,7 @@ module nodal_orbit
    implicit none(type, external)
    private
 
-   !> Tolerance of the steps over that of the motion, and the least one: the correction of Newton's passes is 1e-7
+   !> Tolerance of the steps over that of the motion, and the least one: the correction of Newton's iterations is 1e-7
    real(dp), parameter :: tighter = 0.1_dp, least_tolerance = 1.0e-5_dp
    !> Correction with which a periodic motion is found, over the tolerance of the steps
    real(dp), parameter :: converged = 2.0_dp
@@ -35,8 +35,8 @@ module nodal_orbit
    !> Periods of the motion until then
    integer, parameter :: most_rounds = 12
 
-   !> What is known of a periodic motion next to another motion: nothing was asked for, it was found, or why it was not.
-   integer, parameter, public :: orbit_unasked = 0, orbit_found = 1, orbit_none_near = 2, orbit_not_followed = 3, &
+   !> Outcome of the search for a periodic motion next to another motion: none requested, it was found, or why it was not.
+   integer, parameter, public :: orbit_not_requested = 0, orbit_found = 1, orbit_none_near = 2, orbit_not_followed = 3, &
                                  orbit_not_settled = 4, orbit_out_of_time = 5
 
    public :: find_nodal_orbit, follow_nodal_neighbours, orbit_sentence
@@ -83,7 +83,7 @@ contains
       end do
    end subroutine find_nodal_orbit
 
-   !> Why there are no Floquet multipliers, nothing where there are some or none were asked for.
+   !> Why there are no Floquet multipliers, nothing where there are some or none were requested.
    pure function orbit_sentence(outcome) result(sentence)
       !> One of those above
       integer, intent(in) :: outcome

@@ -11,7 +11,7 @@ module judged_scene
    use vibration_severity, only: vibration_severity_t
    use nodal_step, only: nodal_choice_t
    use node_extremes, only: extreme_t, seen_acceleration, seen_films, seen_loads, seen_position, seen_pressure, seen_velocity
-   use nodal_orbit, only: orbit_unasked
+   use nodal_orbit, only: orbit_not_requested
    use periodic_orbit, only: orbit_stability, periodic_orbit_t
    use quantities, only: quantity_acceleration_error, quantity_acceleration_kurtosis, quantity_acceleration_maximum, &
       quantity_acceleration_maximum_error, quantity_acceleration_minimum, quantity_acceleration_minimum_error, &
@@ -86,7 +86,7 @@ module judged_scene
       !> The periodic motion behind it, where one was looked for
       type(periodic_orbit_t) :: orbit
       !> Of films in nodes: whether one was found, and why not, as of module nodal_orbit
-      integer :: orbit_outcome = orbit_unasked
+      integer :: orbit_outcome = orbit_not_requested
       !> The motions that all starts have led to, where others were followed
       type(coexisting_motions_t) :: coexisting
    end type judged_scene_t

@@ -445,10 +445,10 @@ contains
          call set_coefficients(scene, .false., l, block)
       end do
       call take_series_step(series_of(scene), block)
-      call checks%check(all(block%trust <= 0.0_dp), 'unknown law: steps rejected')
-      block%trust = 1.0_dp
+      call checks%check(all(block%accepted <= 0.0_dp), 'unknown law: steps rejected')
+      block%accepted = 1.0_dp
       call check_ends(series_of(scene), [(0.0_dp, l=1, lanes)], block)
-      call checks%check(all(block%trust <= 0.0_dp), 'unknown law: ends rejected')
+      call checks%check(all(block%accepted <= 0.0_dp), 'unknown law: ends rejected')
       call solve_motions([scene], start_of([scene]), request_t(accuracy=1.0e-6_dp, periods=2, samples_per_period=4, &
                                                                sampled_periods=1), states, endings)
       call checks%check(endings(1)%status == status_overflow .and. endings(1)%periods == 0, 'unknown law: no motion')
