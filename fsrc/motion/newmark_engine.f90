@@ -7,8 +7,7 @@ module newmark_engine
    use flank_contact, only: film_kernel, kernel_of_contact
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
-   use newmark, only: advance_period, start_motion
-   use newmark_step, only: newmark_state_t
+   use newmark, only: advance_period, newmark_state_t, start_motion
    use problem, only: film_unit, of_film, of_velocity, problem_t, reference_films, rigid_films, settling_of, state_size, &
       thinner_in_units
    use repetition, only: note_state, orbit_watch_t
