@@ -1,7 +1,6 @@
 !> Motions that are known of a problem: periodic ones, and the irregular one. A motion from another start that has come to one of
 !> them need not be followed any further.
 module known_motions
-   use irregular_states, only: are_of_one_motion, compared_periods
    use kinds, only: dp
    use problem, only: moving_numbers, of_velocity, problem_t
    implicit none(type, external)
@@ -23,7 +22,14 @@ module known_motions
       real(dp) :: near_velocity = 0.0_dp
    end type known_motions_t
 
-   public :: reached_motion, joined_irregular, are_near, distance_of
+   !> Distance that one of a hundred pairs of samples of one distribution exceeds, in units of sqrt(1/n + 1/m).
+   real(dp), parameter :: rare_distance = 1.63_dp
+
+   !> Periods after which a start that does not repeat is held against an irregular motion that is known, and by how many of the last
+   !> ones.
+   integer, parameter, public :: compared_after = 32, compared_periods = 24
+
+   public :: reached_motion, joined_irregular, are_near, are_of_one_motion, distance_of
 
 contains
 
@@ -68,6 +74,31 @@ contains
       end do
       joined = 0
    end function joined_irregular
+
+   !> Whether the states at the ends of periods of two motions that do not repeat may be those of one: by the distance of Kolmogorov
+   !> and Smirnov between the distributions of their films and of their velocities.
+   pure logical function are_of_one_motion(one, other)
+      !> Number of a state, such as film and velocity; period
+      real(dp), intent(in) :: one(:, :)
+      real(dp), intent(in) :: other(:, :)
+      real(dp) :: limit
+      integer :: i
+
+      limit = rare_distance*sqrt(1.0_dp/real(size(one, 2), dp) + 1.0_dp/real(size(other, 2), dp))
+      are_of_one_motion = all([(largest_distance(one(i, :), other(i, :)) <= limit, i=1, size(one, 1))])
+   end function are_of_one_motion
+
+   !> Largest difference of the shares of two samples that are not above a value [-].
+   pure real(dp) function largest_distance(one, other) result(distance)
+      real(dp), intent(in) :: one(:)
+      real(dp), intent(in) :: other(:)
+      real(dp) :: values(size(one) + size(other))
+      integer :: i
+
+      values = [one, other]
+      distance = maxval([(abs(real(count(one <= values(i)), dp)/real(size(one), dp) - &
+                              real(count(other <= values(i)), dp)/real(size(other), dp)), i=1, size(values))])
+   end function largest_distance
 
    !> Whether two states count as one by how gear and teeth stand and move; states of films follow these.
    pure logical function are_near(problem, known, one, other)

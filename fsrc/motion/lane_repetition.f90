@@ -11,8 +11,7 @@
 module lane_repetition
    use engine, only: last_search_period, motion_state_t, request_t
    use kinds, only: dp, int64
-   use irregular_states, only: compared_after
-   use known_motions, only: joined_irregular, known_motions_t, reached_motion
+   use known_motions, only: compared_after, joined_irregular, known_motions_t, reached_motion
    use lane_run, only: departure_t, lane_run_t, lane_watch_t
    use lane_sampling, only: repeat_samples
    use lane_state, only: films_of_lane, place_state, state_of_lane, thinner_scaled_film

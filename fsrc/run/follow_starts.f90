@@ -11,10 +11,9 @@ module follow_starts
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use irregular_motion, only: follow_irregular
-   use irregular_states, only: are_of_one_motion, compared_after, compared_periods
    use judged_scene, only: judged_scene_t
    use kinds, only: dp
-   use known_motions, only: reached_motion
+   use known_motions, only: are_of_one_motion, compared_after, compared_periods, reached_motion
    use many_motions, only: solve_motions
    use motion_start, only: chosen_starts, motion_start_t, motion_starts, one_start_reason, start_count, start_is_given
    use node_extremes, only: seen_films
