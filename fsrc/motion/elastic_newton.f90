@@ -8,7 +8,7 @@ module elastic_newton
    use inner_equations, only: follow_films, inner_residuals, inner_matrix, trial_inner_t
    use kinds, only: dp
    use lane_block, only: lane_block_t
-   use lane_inner, only: lane_inner_t
+   use lane_state, only: lane_inner_t
    use radau_nodes, only: once_rows, rows, slope_rows, stages, twice_rows, weigh
    use step_elimination, only: factorise, factors_t, most_columns, most_rows, substitute
    use taylor_step_control, only: film_weight, free_rate

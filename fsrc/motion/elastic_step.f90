@@ -27,7 +27,7 @@ module elastic_step
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_functions, only: lanes
-   use lane_inner, only: lane_inner_t
+   use lane_state, only: lane_inner_t
    use radau_nodes, only: meet_start, power, power_rows, powers_of_place, rows, stages, weigh
    use taylor_step_control, only: free_rate
    implicit none(type, external)

@@ -7,7 +7,7 @@ module elastic_trial
       width_compression
    use kinds, only: dp
    use lane_block, only: lane_block_t
-   use lane_inner, only: lane_inner_t
+   use lane_state, only: lane_inner_t
    use radau_nodes, only: node_rows, once_rows, rows, slope_rows, twice_rows, weigh
    implicit none(type, external)
    private

@@ -8,7 +8,7 @@ module inner_equations
    use inner_step, only: eliminate_state, follow_film, inner_step_t, step_response_t
    use kinds, only: dp
    use lane_block, only: lane_block_t
-   use lane_inner, only: evaluate_inner, lane_inner_t
+   use lane_state, only: evaluate_inner, lane_inner_t
    use radau_nodes, only: meet_start, node, once, power, powers_of_place, rows, slope, stages, twice
    use step_elimination, only: most_columns, most_rows
    implicit none(type, external)

@@ -18,10 +18,9 @@ module lane_integration
    use lane_advance, only: advance, largest_series_rate, shortest_step, take_series_step
    use lane_block, only: load_problem, lost_film, place_block, rest_lane, start_period, start_status
    use lane_functions, only: lanes
-   use lane_inner, only: place_inner
    use lane_repetition, only: find_repetition, look_for_known, restore_departure
    use lane_run, only: lane_run_t, lane_watch_t
-   use lane_state, only: place_state, state_of_lane, take_state, thinner_scaled_film, velocity_of_lane
+   use lane_state, only: place_inner, place_state, state_of_lane, take_state, thinner_scaled_film, velocity_of_lane
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
    use problem, only: has_inner_numbers, of_film, problem_t, state_size
    use repetition, only: orbit_watch_t, recurrence_t, start_watch

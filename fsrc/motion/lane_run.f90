@@ -7,7 +7,7 @@ module lane_run
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_functions, only: lanes
-   use lane_inner, only: lane_inner_t
+   use lane_state, only: lane_inner_t
    use lane_sampling, only: lane_samples_t
    use repetition, only: orbit_watch_t, recurrence_t
    use step_nodes, only: step_nodes_t
