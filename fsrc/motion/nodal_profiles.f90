@@ -53,8 +53,7 @@ contains
    end subroutine start_profiles
 
    !> Keep what is requested of an accepted step.
-   pure subroutine note_profiles(contact, flanks, motion, period, is_last, profiles)
-      type(nodal_contact_t), intent(in) :: contact
+   pure subroutine note_profiles(flanks, motion, period, is_last, profiles)
       !> How many there are
       integer, intent(in) :: flanks
       type(motion_t), intent(in) :: motion
@@ -71,14 +70,14 @@ contains
          do while (profiles%next <= size(profiles%phases))
             if (profiles%phases(profiles%next) > motion%time(1)*(1.0_dp + epsilon(1.0_dp))) exit
             do flank = 1, flanks
-               call keep(profile_of(contact, motion, flank, 1, period), profiles)
+               call keep(profile_of(profiles%contact, motion, flank, 1, period), profiles)
             end do
             profiles%next = profiles%next + 1
          end do
          return
       end if
       do flank = 1, flanks
-         associate (load => motion%flanks(flank)%load)
+         associate (load => motion%flanks(flank)%load, contact => profiles%contact)
             if (load(1) > profiles%largest(flank)%load) profiles%largest(flank) = profile_of(contact, motion, flank, 1, period)
             if (real(period, dp) + motion%time(2) < 0.0_dp) cycle
             if (load(2) >= load(1) .and. load(2) > load(3)) call keep(profile_of(contact, motion, flank, 2, period), profiles)
