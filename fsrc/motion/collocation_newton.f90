@@ -8,7 +8,7 @@ module collocation_newton
    use lane_block, only: lane_block_t
    use lane_functions, only: half_block, lanes
    use radau_nodes, only: node, once, stages, twice
-   use taylor_step_control, only: film_weight, lienard_weight
+   use taylor_step_control, only: film_weight, lienard_weight, sign_of
    implicit none(type, external)
    private
 
@@ -119,53 +119,39 @@ contains
       real(dp), dimension(lanes*stages) :: thickness, velocity
       type(load_t) :: loads(lanes*stages), net
       integer :: lane_of(lanes*stages), stage_of(lanes*stages)
-      integer :: l, i, n
+      integer :: flank, l, i, n
 
       load = 0.0_dp
       by_film = 0.0_dp
       by_lienard = 0.0_dp
-      n = 0
-      do l = 1, lanes
-         if (.not. busy(l)) cycle
-         do i = 1, stages
-            if (.not. thinner(film(l, i), l, block) > 0.0_dp) exit
-            n = n + 1
-            lane_of(n) = l
-            stage_of(n) = i
-            thickness(n) = film(l, i)*block%film_scale(l)
-            velocity(n) = lienard(l, i)*block%velocity_scale(l)
+      do flank = 1, 2
+         n = 0
+         do l = 1, lanes
+            if (.not. busy(l) .or. (flank == 2 .and. .not. block%backlash(l) < huge(1.0_dp))) cycle
+            do i = 1, stages
+               if (.not. thinner(film(l, i), l, block) > 0.0_dp) exit
+               n = n + 1
+               lane_of(n) = l
+               stage_of(n) = i
+               thickness(n) = merge(film(l, i), block%backlash(l) - film(l, i), flank == 1)*block%film_scale(l)
+               velocity(n) = sign_of(flank)*lienard(l, i)*block%velocity_scale(l)
+            end do
          end do
-      end do
-      call mixed_loads(contacts, lane_of(:n), thickness(:n), velocity(:n), loads(:n))
-      do i = 1, n
-         l = lane_of(i)
-         call scale_load(block, l, loads(i))
-         load(l, stage_of(i)) = loads(i)%load
-         by_film(l, stage_of(i)) = loads(i)%by_film
-         by_lienard(l, stage_of(i)) = loads(i)%by_velocity
-      end do
-      n = 0
-      do l = 1, lanes
-         if (.not. (busy(l) .and. block%backlash(l) < huge(1.0_dp))) cycle
-         do i = 1, stages
-            if (.not. thinner(film(l, i), l, block) > 0.0_dp) exit
-            n = n + 1
-            lane_of(n) = l
-            stage_of(n) = i
-            thickness(n) = (block%backlash(l) - film(l, i))*block%film_scale(l)
-            velocity(n) = -lienard(l, i)*block%velocity_scale(l)
+         if (n == 0) return
+         call mixed_loads(contacts, lane_of(:n), thickness(:n), velocity(:n), loads(:n))
+         do i = 1, n
+            associate (l => lane_of(i), stage => stage_of(i))
+               call scale_load(block, l, loads(i))
+               net = loads(i)
+               if (flank == 2) then
+                  net = load_t(load(l, stage), by_film(l, stage), by_lienard(l, stage))
+                  call subtract_coast(loads(i), net)
+               end if
+               load(l, stage) = net%load
+               by_film(l, stage) = net%by_film
+               by_lienard(l, stage) = net%by_velocity
+            end associate
          end do
-      end do
-      if (n == 0) return
-      call mixed_loads(contacts, lane_of(:n), thickness(:n), velocity(:n), loads(:n))
-      do i = 1, n
-         l = lane_of(i)
-         call scale_load(block, l, loads(i))
-         net = load_t(load(l, stage_of(i)), by_film(l, stage_of(i)), by_lienard(l, stage_of(i)))
-         call subtract_coast(loads(i), net)
-         load(l, stage_of(i)) = net%load
-         by_film(l, stage_of(i)) = net%by_film
-         by_lienard(l, stage_of(i)) = net%by_velocity
       end do
    end subroutine loads_of_stages
 

@@ -2,7 +2,7 @@
 !> much their laws miss at the nodes, and what the loads change of that; those of films with one stand in module inner_equations.
 module elastic_newton
    use collocation_basis, only: iteration_share, rounding
-   use elastic_trial, only: follow_loads, sign_of, trial_t
+   use elastic_trial, only: follow_loads, trial_t
    use flank_contact, only: carries_positive_loads, equations_of_films, film_equations_t, flank_contact_t, keeps_load, kept_load, &
       most_films
    use inner_equations, only: follow_films, inner_residuals, inner_matrix, trial_inner_t
@@ -11,7 +11,7 @@ module elastic_newton
    use lane_state, only: lane_inner_t
    use radau_nodes, only: once_rows, rows, slope_rows, stages, twice_rows, weigh
    use step_elimination, only: factorise, factors_t, most_columns, most_rows, substitute
-   use taylor_step_control, only: film_weight, free_rate
+   use taylor_step_control, only: film_weight, free_rate, sign_of
    implicit none(type, external)
    private
 

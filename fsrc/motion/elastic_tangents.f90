@@ -6,13 +6,14 @@
 !> right-hand side. Gear, springs and films at the end follow from dW and dy as they follow from W and y.
 module elastic_tangents
    use elastic_newton, only: residuals, newton_matrix, slopes_t
-   use elastic_trial, only: sign_of, trial_t
+   use elastic_trial, only: trial_t
    use flank_contact, only: flank_contact_t, width_compression
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use problem, only: of_drive_compression, of_film, of_velocity
    use radau_nodes, only: node_rows, once_rows, rows, slope_rows, stages, twice_rows, weigh
    use step_elimination, only: factorise, factors_t, most_columns, most_rows, substitute
+   use taylor_step_control, only: sign_of
    implicit none(type, external)
    private
 

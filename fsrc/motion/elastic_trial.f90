@@ -9,6 +9,7 @@ module elastic_trial
    use lane_block, only: lane_block_t
    use lane_state, only: lane_inner_t
    use radau_nodes, only: node_rows, once_rows, rows, slope_rows, twice_rows, weigh
+   use taylor_step_control, only: sign_of
    implicit none(type, external)
    private
 
@@ -28,9 +29,6 @@ module elastic_trial
       !> A, and of the gear V and Z - Z at the start
       real(dp) :: acceleration(rows) = 0.0_dp, lienard(rows) = 0.0_dp, displacement(rows) = 0.0_dp
    end type trial_t
-
-   !> Signs of the gear's motion in the films
-   real(dp), parameter, public :: sign_of(2) = [1.0_dp, -1.0_dp]
 
    public :: start_films, first_loads, follow_loads
 

@@ -3,7 +3,7 @@
 !> of the steps that call them, which films without a state take as well.
 module inner_equations
    use collocation_basis, only: can_extrapolate, highest_terms, last_share
-   use elastic_trial, only: sign_of, trial_t
+   use elastic_trial, only: trial_t
    use flank_contact, only: flank_contact_t
    use inner_step, only: eliminate_state, follow_film, inner_step_t, step_response_t
    use kinds, only: dp
@@ -11,6 +11,7 @@ module inner_equations
    use lane_state, only: evaluate_inner, lane_inner_t
    use radau_nodes, only: meet_start, node, once, power, powers_of_place, rows, slope, stages, twice
    use step_elimination, only: most_columns, most_rows
+   use taylor_step_control, only: sign_of
    implicit none(type, external)
    private
 
