@@ -129,34 +129,23 @@ contains
       summed = 0.0_dp
       ! Rounding may put the end of one piece and the begin of the next on different sides of F_max.
       if (watch%started .and. (watch%above .neqv. points%load(1) > watch%level)) &
-         call note(merge(point_fall, point_rise, watch%above), 0.0_dp, watch%level, points%velocity(1), total, watch)
-      call note(merge(point_low, point_passing, points%load(1) < low), 0.0_dp, points%load(1), points%velocity(1), total, watch)
+         call note(contact, merge(point_fall, point_rise, watch%above), start, watch%level, points%velocity(1), total, watch)
+      call note(contact, merge(point_low, point_passing, points%load(1) < low), start, points%load(1), points%velocity(1), &
+                total, watch)
       do i = 2, points%count
          if (points%load(i - 1) > watch%level .neqv. points%load(i) > watch%level) then
             call find_crossing(problem, contact, states, piece, points, i, watch%level, place, load, velocity)
             if (watch%above) call add_integral(place, summed, total)
             summed = place
-            call note(merge(point_fall, point_rise, watch%above), place, watch%level, velocity, total, watch)
+            call note(contact, merge(point_fall, point_rise, watch%above), start + place*length, watch%level, velocity, &
+                      total, watch)
          end if
          if (watch%above .and. (points%turns(i) .or. i == points%count)) call add_integral(points%place(i), summed, total)
-         call note(merge(point_low, point_passing, points%load(i) < low), points%place(i), points%load(i), points%velocity(i), &
-                   total, watch)
+         call note(contact, merge(point_low, point_passing, points%load(i) < low), start + points%place(i)*length, points%load(i), &
+                   points%velocity(i), total, watch)
       end do
 
    contains
-
-      !> Note a point.
-      pure subroutine note(kind_of, place, load, velocity, total, watch)
-         integer, intent(in) :: kind_of
-         real(dp), intent(in) :: place
-         real(dp), intent(in) :: load
-         real(dp), intent(in) :: velocity
-         real(dp), intent(in) :: total
-         type(impact_watch_t), intent(inout) :: watch
-
-         call take_point(load_point_t(time=start + place*length, load=load, &
-                                     velocity=closing_velocity(contact, velocity), sum=total, kind=kind_of), watch)
-      end subroutine note
 
       !> Take the integral of W up to a place into the sum.
       pure subroutine add_integral(place, summed, total)
@@ -181,6 +170,22 @@ contains
       end subroutine add_integral
 
    end subroutine record_piece
+
+   !> Take a point of W into the impacts.
+   pure subroutine note(contact, kind_of, time, load, velocity, total, watch)
+      integer, intent(in) :: contact
+      integer, intent(in) :: kind_of
+      real(dp), intent(in) :: time
+      real(dp), intent(in) :: load
+      !> Of the gear [m/s]
+      real(dp), intent(in) :: velocity
+      !> Integral of W so far
+      real(dp), intent(in) :: total
+      type(impact_watch_t), intent(inout) :: watch
+
+      call take_point(load_point_t(time=time, load=load, velocity=closing_velocity(contact, velocity), sum=total, &
+                                   kind=kind_of), watch)
+   end subroutine note
 
    !> Share of a piece in which the drive film carries less than a level.
    pure real(dp) function share_below(problem, states, piece, points, level) result(share)
@@ -240,37 +245,21 @@ contains
       step = 1.0_dp/real(samples_per_period, dp)
       low = low_load(watch)
       total = 0.0_dp
-      call note(point_passing, 0.0_dp, loads(0), velocities(0), total, watch)
+      call note(contact, point_passing, 0.0_dp, loads(0), velocities(0), total, watch)
       do i = 1, ubound(loads, 1)
          share = 0.0_dp
          if (loads(i - 1) > watch%level .neqv. loads(i) > watch%level) then
             share = (watch%level - loads(i - 1))/(loads(i) - loads(i - 1))
             if (watch%above) total = total + 0.5_dp*share*step*(loads(i - 1) + watch%level)
-            call note(merge(point_fall, point_rise, watch%above), (real(i - 1, dp) + share)*step, watch%level, &
+            call note(contact, merge(point_fall, point_rise, watch%above), (real(i - 1, dp) + share)*step, watch%level, &
                       velocities(i - 1) + share*(velocities(i) - velocities(i - 1)), total, watch)
             if (watch%above) total = total + 0.5_dp*(1.0_dp - share)*step*(watch%level + loads(i))
          else if (watch%above) then
             total = total + 0.5_dp*step*(loads(i - 1) + loads(i))
          end if
-         call note(merge(point_low, point_passing, loads(i) < low), real(i, dp)*step, loads(i), velocities(i), &
+         call note(contact, merge(point_low, point_passing, loads(i) < low), real(i, dp)*step, loads(i), velocities(i), &
                    total, watch)
       end do
-
-   contains
-
-      !> Note a point.
-      pure subroutine note(kind_of, time, load, velocity, total, watch)
-         integer, intent(in) :: kind_of
-         real(dp), intent(in) :: time
-         real(dp), intent(in) :: load
-         real(dp), intent(in) :: velocity
-         real(dp), intent(in) :: total
-         type(impact_watch_t), intent(inout) :: watch
-
-         call take_point(load_point_t(time=time, load=load, velocity=closing_velocity(contact, velocity), sum=total, &
-                                     kind=kind_of), watch)
-      end subroutine note
-
    end subroutine record_samples
 
    !> Time in which straight lines between numbers one apart are below a level.
