@@ -69,6 +69,7 @@ contains
       integer :: l, events
 
       call place_block(room, run%block)
+      run%request = request
       run%by_series = by_series
       if (size(queue) > 0) run%series = series_of(problems(queue(1)))
       if (size(queue) > 0) run%own_numbers = has_inner_numbers(problems(queue(1)))
@@ -76,7 +77,7 @@ contains
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
       run%samples%per_period = request%samples_per_period
       do l = 1, lanes
-         call next_scene(l, problems, starts, queue, request, run, endings, watches, records, displacements)
+         call next_scene(l, problems, starts, queue, run, endings, watches, records, displacements)
       end do
       do while (run%active > 0)
          if (must_stop()) exit
@@ -100,7 +101,7 @@ contains
                cycle
             end if
             if (run%block%remaining(l) <= 0.0_dp) then
-               call end_period(l, problems, request, states, run, records, known)
+               call end_period(l, problems, states, run, records, known)
             else if (in_trouble(l, run) .and. run%watches(l)%departure%period > 0) then
                run%watches(l)%ending%count%steps = run%watches(l)%ending%count%steps + nint(run%block%period_steps(l), int64)
                call start_period(l, run%block)
@@ -112,20 +113,18 @@ contains
             if (present(displacements)) displacements(:size(run%watches(l)%state), :, run%watches(l)%scene) = &
                tangents_in_units(run%tangents(l), l, run%block)
             call finish(l, problems, run, endings, watches)
-            call next_scene(l, problems, starts, queue, request, run, endings, watches, records, displacements)
+            call next_scene(l, problems, starts, queue, run, endings, watches, records, displacements)
          end do
       end do
       if (run%active > 0) call interrupt(problems, starts, queue, run, endings, watches)
    end subroutine integrate_lanes
 
    !> Put the next scene that can start into a lane.
-   pure subroutine next_scene(lane, problems, starts, queue, request, run, endings, watches, records, displacements)
-      !> Lane
+   pure subroutine next_scene(lane, problems, starts, queue, run, endings, watches, records, displacements)
       integer, intent(in) :: lane
       type(problem_t), intent(in) :: problems(:)
       type(motion_state_t), intent(in) :: starts(:)
       integer, intent(in) :: queue(:)
-      type(request_t), intent(in) :: request
       type(lane_run_t), intent(inout) :: run
       type(ending_t), intent(inout) :: endings(:)
       type(orbit_watch_t), optional, intent(in) :: watches(:)
@@ -140,8 +139,8 @@ contains
          scene = queue(run%taken)
          status = start_status(problems(scene), starts(scene))
          endings(scene) = ending_at(starts(scene), status,.not. run%by_series, endings(scene)%count)
-         if (status /= status_complete .or. request%periods <= starts(scene)%periods) cycle
-         call load_problem(problems(scene), starts(scene), request%accuracy, lane, run%block)
+         if (status /= status_complete .or. run%request%periods <= starts(scene)%periods) cycle
+         call load_problem(problems(scene), starts(scene), run%request%accuracy, lane, run%block)
          call place_inner(problems(scene), starts(scene), run%inner(lane))
          if (run%by_series) call set_coefficients(problems(scene), starts(scene)%carried_on, lane, run%block)
          run%contacts(lane) = problems(scene)%contact
@@ -151,8 +150,8 @@ contains
             watch%scene = scene
             watch%ending%count = endings(scene)%count
             watch%period = starts(scene)%periods
-            watch%last_period = request%periods
-            watch%sample_from = max(0, request%periods - request%sampled_periods)
+            watch%last_period = run%request%periods
+            watch%sample_from = max(0, run%request%periods - run%request%sampled_periods)
             allocate (watch%state(state_size(problems(scene))))
             call take_state(lane, run%block, run%inner(lane), watch%state)
             allocate (watch%weights(state_size(problems(scene))), source=1.0_dp)
@@ -178,7 +177,6 @@ contains
 
    !> Begin a period that is sampled, and its window if it is the first one.
    pure subroutine begin_period(lane, run, records)
-      !> Lane
       integer, intent(in) :: lane
       type(lane_run_t), intent(inout) :: run
       type(window_record_t), optional, intent(inout) :: records(:)
@@ -217,11 +215,9 @@ contains
    end function samples_before
 
    !> A period has ended: does the motion repeat, are samples due?
-   pure subroutine end_period(lane, problems, request, states, run, records, known)
-      !> Lane
+   pure subroutine end_period(lane, problems, states, run, records, known)
       integer, intent(in) :: lane
       type(problem_t), intent(in) :: problems(:)
-      type(request_t), intent(in) :: request
       real(dp), contiguous, intent(inout) :: states(:, :, :)
       type(lane_run_t), intent(inout) :: run
       type(window_record_t), optional, intent(inout) :: records(:)
@@ -234,8 +230,8 @@ contains
          call start_period(lane, block)
          watch%period = watch%period + 1
          call take_state(lane, block, run%inner(lane), watch%state)
-         if (present(known)) call look_for_known(lane, problems(watch%scene), known(watch%scene), request, run)
-         if (watch%ending%known == 0) call find_repetition(lane, problems(watch%scene), request, states, run)
+         if (present(known)) call look_for_known(lane, problems(watch%scene), known(watch%scene), run)
+         if (watch%ending%known == 0) call find_repetition(lane, problems(watch%scene), states, run)
          if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) &
             call begin_period(lane, run, records)
       end associate
@@ -243,7 +239,6 @@ contains
 
    !> The scene of a lane goes no further; its state is that at the start of the period.
    pure subroutine give_up(lane, run)
-      !> Lane
       integer, intent(in) :: lane
       type(lane_run_t), intent(inout) :: run
 
@@ -309,7 +304,6 @@ contains
 
    !> Record the end of a motion.
    pure subroutine finish(lane, problems, run, endings, watches)
-      !> Lane
       integer, intent(in) :: lane
       type(problem_t), intent(in) :: problems(:)
       type(lane_run_t), intent(inout) :: run
@@ -332,7 +326,6 @@ contains
 
    !> Whether the motion of a lane cannot go on like this.
    pure logical function in_trouble(lane, run)
-      !> Lane
       integer, intent(in) :: lane
       type(lane_run_t), intent(in) :: run
 

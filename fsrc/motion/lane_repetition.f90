@@ -46,13 +46,9 @@ module lane_repetition
 contains
 
    !> Look for repetition at the end of a period.
-   pure subroutine find_repetition(lane, problem, request, states, run)
-      !> Lane
+   pure subroutine find_repetition(lane, problem, states, run)
       integer, intent(in) :: lane
-      !> What moves there
       type(problem_t), intent(in) :: problem
-      !> What is requested
-      type(request_t), intent(in) :: request
       !> Samples: sample, number of its state, scene
       real(dp), contiguous, intent(inout) :: states(:, :, :)
       !> The block, its period counted and its state that of the period's end
@@ -60,7 +56,7 @@ contains
       real(dp) :: weight, distance
       integer :: orbit
 
-      associate (watch => run%watches(lane), block => run%block)
+      associate (watch => run%watches(lane), block => run%block, request => run%request)
          if (is_searching(watch, request)) then
             weight = lienard_weight(thinner_scaled_film(watch%state, lane, block), block%damping_rate(lane), block%force(lane))
             watch%weights(of_velocity) = weight
@@ -83,22 +79,18 @@ contains
 
    !> Look whether the motion has come to one that is known. It is then that motion, and goes no further. An excursion, which did
    !> not start where the motion did, is no witness.
-   pure subroutine look_for_known(lane, problem, known, request, run)
-      !> Lane
+   pure subroutine look_for_known(lane, problem, known, run)
       integer, intent(in) :: lane
-      !> What moves there
       type(problem_t), intent(in) :: problem
       !> What is known of it
       type(known_motions_t), intent(in) :: known
-      !> What is requested
-      type(request_t), intent(in) :: request
       !> The block, its period counted and its state that of the period's end
       type(lane_run_t), intent(inout) :: run
       type(motion_state_t) :: here
       integer :: periods, i
 
       associate (watch => run%watches(lane))
-         if (.not. is_searching(watch, request) .or. watch%departure%period > 0 .or. .not. allocated(known%motions)) return
+         if (.not. is_searching(watch, run%request) .or. watch%departure%period > 0 .or. .not. allocated(known%motions)) return
          here = state_of_lane(lane, run%block, run%inner(lane))
          if (allocated(watch%earlier)) watch%ending%known = reached_motion(problem, known, watch%earlier, here%numbers)
          if (any([(allocated(known%motions(i)%path), i=1, size(known%motions))])) then
@@ -130,7 +122,6 @@ contains
 
    !> How the film of a lane settles from where it is.
    pure type(settling_t) function settling_of_lane(lane, problem, run)
-      !> Lane
       integer, intent(in) :: lane
       type(problem_t), intent(in) :: problem
       type(lane_run_t), intent(in) :: run
@@ -146,7 +137,6 @@ contains
    !> Skip the periods in which the motion only returns to the state it is in, to the last bit: whole cycles up to where
    !> sampling begins, and at the end those whose samples are the ones of the cycle before. Their steps count like the others.
    pure subroutine skip_returns(lane, states, run)
-      !> Lane
       integer, intent(in) :: lane
       real(dp), contiguous, intent(inout) :: states(:, :, :)
       type(lane_run_t), intent(inout) :: run
@@ -176,7 +166,6 @@ contains
    pure subroutine look_ahead(weight, lane, last, run)
       !> Film that a Lienard variable of one counts as [-]
       real(dp), intent(in) :: weight
-      !> Lane
       integer, intent(in) :: lane
       !> Last period after which repetition may be found
       integer, intent(in) :: last
@@ -213,7 +202,6 @@ contains
 
    !> Restore the state from which the motion jumped.
    pure subroutine restore_departure(lane, run)
-      !> Lane
       integer, intent(in) :: lane
       type(lane_run_t), intent(inout) :: run
 
@@ -229,7 +217,6 @@ contains
    pure subroutine place(state, lane, run)
       !> Scaled [-]
       real(dp), intent(in) :: state(:)
-      !> Lane
       integer, intent(in) :: lane
       type(lane_run_t), intent(inout) :: run
 

@@ -1,7 +1,7 @@
 !> A block of lanes at work: what has become of the scene of every lane, and what is taken of it on the way.
 module lane_run
    use elastic_tangents, only: lane_tangents_t
-   use engine, only: ending_t
+   use engine, only: ending_t, request_t
    use flank_contact, only: flank_contact_t
    use film_series, only: film_series_t
    use kinds, only: dp
@@ -50,6 +50,7 @@ module lane_run
 
    !> A block at work.
    type, public :: lane_run_t
+      type(request_t) :: request
       !> Taylor series, else collocation; and whose series; and whether contacts have numbers of their own
       logical :: by_series = .true., own_numbers = .false.
       type(film_series_t) :: series

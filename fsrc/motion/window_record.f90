@@ -73,7 +73,6 @@ contains
    pure subroutine start_record(start, record)
       !> State there
       type(motion_state_t), intent(in) :: start
-      !> The record
       type(window_record_t), intent(inout) :: record
 
       record = window_record_t(wants=record%wants, multiples=record%multiples, &
