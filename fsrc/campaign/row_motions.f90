@@ -8,7 +8,7 @@ module row_motions
    use irregular_motion, only: follow_irregular
    use kinds, only: dp
    use lyapunov, only: path_t
-   use known_motions, only: are_near, known_motions_t
+   use known_motions, only: are_near, known_motions_t, known_of, near_states, same_motion, settled_motion_t
    use node_extremes, only: seen_films, seen_loads, seen_net_load, seen_quantities
    use periodic_orbit, only: map_states
    use problem, only: problem_t, state_size
@@ -17,7 +17,6 @@ module row_motions
    use scene_group, only: classify_group, has_window, scene_group_t, solve_group
    use scene_status, only: is_success
    use scene_types, only: spectrum_choice_t
-   use settled_motion, only: known_of, near_states, same_motion, settled_motion_t
    use signals, only: must_stop
    use vibration_severity, only: severity_of_record, vibration_severity_t
    use window_extremes, only: extremes_of_record

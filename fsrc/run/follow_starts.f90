@@ -13,7 +13,8 @@ module follow_starts
    use irregular_motion, only: follow_irregular
    use judged_scene, only: judged_scene_t
    use kinds, only: dp
-   use known_motions, only: are_of_one_motion, compared_after, compared_periods, reached_motion
+   use known_motions, only: are_of_one_motion, compared_after, compared_periods, known_of, reached_motion, same_motion, &
+      settled_motion_t
    use many_motions, only: solve_motions
    use motion_start, only: chosen_starts, motion_start_t, motion_starts, one_start_reason, start_count, start_is_given
    use node_extremes, only: seen_films
@@ -24,7 +25,6 @@ module follow_starts
    use scene_orbit, only: nearby_orbit, orbit_ahead
    use scene_status, only: is_success, status_complete
    use scene_types, only: scene_t
-   use settled_motion, only: known_of, same_motion, settled_motion_t
    use signals, only: must_stop
    use text_output, only: lock_texts, unlock_texts
    use vibration_severity, only: severity_of_record, vibration_severity_t
