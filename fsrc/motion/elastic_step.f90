@@ -1,18 +1,9 @@
 !> Implicit steps by collocation for contacts with numbers of their own, lane by lane: elastic teeth, films with a state, of any
 !> law and stiffness, one flank or two.
 !>
-!> A spring stands between the gear and each film. Within a step of length s the loads W_1 and W_2 are polynomials in c = 0..1
-!> through their values at the seven nodes of Radau. They move the gear, the springs follow them, and the films are what gear and
-!> springs leave,
-!>
-!>     A_i = W_1i - W_2i - F(x + c_i s) ,     V_i = V + s sum(once_ij A_j) ,     Z_i - Z = c_i s V + s**2 sum(twice_ij A_j) ,
-!>     H_1i = H_1 + (Z_i - Z) + kappa W_1i - D_1 ,     H_1i' = V_i + sum(slope_ij (kappa W_1j - D_1))/s ,
-!>
-!> for the coast film with the signs of Z and V turned (module elastic_trial). The film law at each node is solved for the loads by
-!> Newton's method with its slopes (module elastic_newton): as H_i' = w(H_i, W_i) where its velocity follows from its load, else as
-!> W(H_i, H_i') = W_i. Loads that do not fall to nothing count from those of the springs at the start, so that kappa W_i - D_1 keeps
-!> its digits. Nothing here grows with the stiffness: at kappa = 0 these are the equations of module collocation_step. A state of a
-!> film is taken out of these equations contact by contact (module inner_step), and brought after once the loads are corrected.
+!> The loads at the nodes are the unknowns: gear, springs and films follow from them (module elastic_trial), and Newton's method makes
+!> the film laws hold (module elastic_newton; fsrc/THEORY.md, section 6). A state of a film is taken out of these equations contact by
+!> contact (module inner_step), and brought after once the loads are corrected.
 !>
 !> The error is that of rigid teeth, of the polynomial of the acceleration (module collocation_basis); a load that is off moves its
 !> film by kappa as well, and so counts the first coefficient of its polynomial that is left out.

@@ -1,9 +1,7 @@
 !> Small displacements of the motion in a lane, carried along its implicit steps (module elastic_step): the derivative of the step
 !> itself, not a difference of motions beside each other.
-!>
-!> The loads of a step make its film laws hold, R(W, y) = 0, with y the state at its start. A displacement dy moves them by the
-!> solution of -R_W dW = R_y dy: the matrix is that of Newton's method where this has ended, and every displacement is one more
-!> right-hand side. Gear, springs and films at the end follow from dW and dy as they follow from W and y.
+!> The matrix is that of Newton's method where this has ended, and every displacement is one more right-hand side (fsrc/THEORY.md,
+!> section 6).
 module elastic_tangents
    use elastic_newton, only: residuals, newton_matrix, slopes_t
    use elastic_trial, only: trial_t

@@ -1,11 +1,7 @@
 !> Newmark's average acceleration method for m z'' = W(h, z') - F(t) - m g, eq (1): start, one step, the steps of a period, and the
-!> cuts of those that fail. The iteration within a step ends by (36):
-!>
-!>    h_i  = h_(i-1) + dt z'_(i-1) + dt^2/4 (z''_(i-1) + z''_i)
-!>    z'_i = z'_(i-1) + dt/2 (z''_(i-1) + z''_i)
-!>
-!> An iteration evaluates the film at the present iterate. `successive`: its load gives z''_i, as in the paper.
-!> `newton`: the load is linearised about the iterate, which gives z''_i from one linear equation.
+!> cuts of those that fail; an iteration within a step that (36) ends (fsrc/THEORY.md, section 6). An iteration evaluates the film at
+!> the present iterate. `successive`: its load gives z''_i, as in the paper. `newton`: the load is linearised about the iterate, which
+!> gives z''_i from one linear equation.
 !>
 !> It is the paper's method for the paper's rigid teeth; the checker refuses it for elastic ones.
 module newmark

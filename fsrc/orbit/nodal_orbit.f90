@@ -1,11 +1,9 @@
 !> The periodic motion next to a motion in nodes of pressure, its Floquet multipliers, and whether neighbours of a motion that does
 !> not repeat leave it for good.
 !>
-!> The state of such a motion has all pressures in it, but after a period only what has become of position and velocity of the gear is
-!> left of a disturbance: the film that the disturbance met is gone. Two neighbours (module nodal_tangent) are followed through a
-!> period first, so that their pressures are those that belong to their gears; then their positions and velocities at both ends of
-!> the next one give the two multipliers that count, X(end) = J X(start), and the others are as nothing beside these. It is seen
-!> that the periods after give the same. Newton's correction, (X(end) - X(start)) a = start - end, is applied to all histories.
+!> Two neighbours (module nodal_tangent) are followed through a period first, so that their pressures are those that belong to their
+!> gears; then their positions and velocities at both ends of the next one, X(end) = J X(start), give the two multipliers that count
+!> (fsrc/THEORY.md, section 10).
 module nodal_orbit
    use constants, only: two_pi
    use engine, only: ending_t
