@@ -14,12 +14,9 @@ module taylor_reynolds_piezo
    use reynolds_piezo_expansion, only: expand_reynolds_piezo, first_term, highest_peak_power, highest_group_power, &
       highest_sigma_power
    use taylor_rupture, only: rupture_order
-   use taylor_step_control, only: inverse, order, sign_of
+   use taylor_step_control, only: inverse, order, sign_of, unfollowable_rate
    implicit none(type, external)
    private
-
-   !> Damping rate where there is no expansion: no series follows it [1/periods].
-   real(dp), parameter :: no_expansion = 1.0e30_dp
 
    !> The series, in one array: their coefficients lie at fixed distances from each other, and one address leads to all.
    !> Names as above; group = B, peak = max p*, tail + j: F_j, z + i - 1: z**i; of elastic teeth d, the compression, and root = H r.
@@ -31,19 +28,29 @@ module taylor_reynolds_piezo
 contains
 
    !> Coefficients 1 to `rupture_order`; those of elastic teeth about films that are expanded under the loads of their springs.
-   pure subroutine reynolds_piezo_series(elastic, two_flanks, force, block)
-      logical, intent(in) :: elastic
+   pure subroutine reynolds_piezo_series(springs, two_flanks, force, block)
+      logical, intent(in) :: springs
       logical, intent(in) :: two_flanks
       !> Derivatives of the force that oscillates, by module lane_force [-]
       real(dp), intent(in) :: force(lanes, order)
       type(lane_block_t), intent(inout) :: block
       real(dp) :: slope(lanes), inside(lanes)
 
-      if (elastic) then
+      if (springs) then
          if (two_flanks) then
-            call two_elastic_flanks(force, block)
+            block
+               integer, parameter :: flanks = 2
+               logical, parameter :: elastic = .true.
+
+               include 'taylor_reynolds_piezo.inc'
+            end block
          else
-            call elastic_flank(force, block)
+            block
+               integer, parameter :: flanks = 1
+               logical, parameter :: elastic = .true.
+
+               include 'taylor_reynolds_piezo.inc'
+            end block
          end if
          return
       end if
@@ -57,57 +64,23 @@ contains
             slope = slope + coast%inverse_film*coast%root*coast%load_slope
             inside = inside*coast%inside
          end if
-         block%damping_rate = merge(-block%strength*block%damping*slope, no_expansion, inside > 0.0_dp)
+         block%damping_rate = merge(-block%strength*block%damping*slope, unfollowable_rate, inside > 0.0_dp)
       end associate
       if (two_flanks) then
-         call two_rigid_flanks(force, block)
+         block
+            integer, parameter :: flanks = 2
+            logical, parameter :: elastic = .false.
+
+            include 'taylor_reynolds_piezo.inc'
+         end block
       else
-         call rigid_flank(force, block)
+         block
+            integer, parameter :: flanks = 1
+            logical, parameter :: elastic = .false.
+
+            include 'taylor_reynolds_piezo.inc'
+         end block
       end if
    end subroutine reynolds_piezo_series
-
-   !> One rigid flank.
-   pure subroutine rigid_flank(force, block)
-      !> Derivatives of the force that oscillates [-]
-      real(dp), intent(in) :: force(lanes, order)
-      type(lane_block_t), intent(inout) :: block
-      integer, parameter :: flanks = 1
-      logical, parameter :: elastic = .false.
-
-      include 'taylor_reynolds_piezo.inc'
-   end subroutine rigid_flank
-
-   !> Two rigid flanks.
-   pure subroutine two_rigid_flanks(force, block)
-      !> Derivatives of the force that oscillates [-]
-      real(dp), intent(in) :: force(lanes, order)
-      type(lane_block_t), intent(inout) :: block
-      integer, parameter :: flanks = 2
-      logical, parameter :: elastic = .false.
-
-      include 'taylor_reynolds_piezo.inc'
-   end subroutine two_rigid_flanks
-
-   !> One elastic flank.
-   pure subroutine elastic_flank(force, block)
-      !> Derivatives of the force that oscillates [-]
-      real(dp), intent(in) :: force(lanes, order)
-      type(lane_block_t), intent(inout) :: block
-      integer, parameter :: flanks = 1
-      logical, parameter :: elastic = .true.
-
-      include 'taylor_reynolds_piezo.inc'
-   end subroutine elastic_flank
-
-   !> Two elastic flanks.
-   pure subroutine two_elastic_flanks(force, block)
-      !> Derivatives of the force that oscillates [-]
-      real(dp), intent(in) :: force(lanes, order)
-      type(lane_block_t), intent(inout) :: block
-      integer, parameter :: flanks = 2
-      logical, parameter :: elastic = .true.
-
-      include 'taylor_reynolds_piezo.inc'
-   end subroutine two_elastic_flanks
 
 end module taylor_reynolds_piezo
