@@ -48,8 +48,7 @@ contains
                   second = second + twice(i, j)*k(l, j)
                end do
                lienard(l, i) = block%lienard(l, 0) + block%step(l)*first
-               film(l, i) = block%film(l, 0) + block%step(l)*(node(i)*block%lienard(l, 0) &
-                  + block%step(l)*second)
+               film(l, i) = block%film(l, 0) + block%step(l)*(node(i)*block%lienard(l, 0) + block%step(l)*second)
             end do
          end do
       end do

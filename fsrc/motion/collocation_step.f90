@@ -36,8 +36,7 @@ contains
       type(flank_contact_t), intent(in) :: contacts(lanes)
       !> Lanes with a scene
       logical, intent(in) :: occupied(lanes)
-      !> The block; leaves the film and velocity that the step leads to, whether they are accepted, and
-      !> series for the samples
+      !> The block; leaves the film and velocity that the step leads to, whether they are accepted, and series for the samples
       type(lane_block_t), intent(inout) :: block
       real(dp) :: force(lanes, stages), k(lanes, stages), film(lanes, stages), lienard(lanes, stages)
       real(dp) :: residual(lanes, stages), matrix(lanes, stages, stages), largest(lanes)
@@ -112,8 +111,7 @@ contains
             weight = lienard_weight(thinner(block%film(l, 0), l, block), block%damping_rate(l), block%force(l))
             error = error_of_acceleration(polynomial, block%step(l), weight)
             between = abs(at_start(polynomial) - block%acceleration(l))*twice_between*block%step(l)**2
-            error = max(error, between) &
-               /min(allowed(block%film(l, 0), l, block), allowed(minval(film(l, :)), l, block), &
+            error = max(error, between)/min(allowed(block%film(l, 0), l, block), allowed(minval(film(l, :)), l, block), &
                     allowed(maxval(film(l, :)), l, block))
             growth = growth_of(error, most_growth, step_share)
             if (.not. error <= 1.0_dp .or. &

@@ -1,8 +1,7 @@
 !> Single motion by the controlled engine: the same lanes as in a campaign, one of them used.
 !>
-!> The motion is solved in blocks of periods, each carried on from the one before to the last bit, with the samples
-!> that are wanted. A run that stops once the motion repeats looks for that block by block, and then solves the one
-!> orbit that it is judged by.
+!> The motion is solved in blocks of periods, each carried on from the one before to the last bit, with the samples that are wanted.
+!> A run that stops once the motion repeats looks for that block by block, and then solves the one orbit that it is judged by.
 module controlled_engine
    use clock, only: wall_seconds
    use engine, only: checkpoint_t, ending_t, last_search_period, motion_state_t, motion_watcher_t, request_t, &

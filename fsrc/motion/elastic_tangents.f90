@@ -1,7 +1,6 @@
 !> Small displacements of the motion in a lane, carried along its implicit steps (module elastic_step): the derivative of the step
-!> itself, not a difference of motions beside each other.
-!> The matrix is that of Newton's method where this has ended, and every displacement is one more right-hand side (fsrc/THEORY.md,
-!> section 6).
+!> itself, not a difference of motions beside each other. The matrix is that of Newton's method where this has ended, and every
+!> displacement is one more right-hand side (fsrc/THEORY.md, section 6).
 module elastic_tangents
    use elastic_newton, only: residuals, newton_matrix, slopes_t
    use elastic_trial, only: trial_t

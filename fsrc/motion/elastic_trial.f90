@@ -174,8 +174,7 @@ contains
             trial%width(:, flank) = trial%film(:, flank) - (gap(:, flank) - trial%start_width(flank))
             yielded(:, flank) = yielded(:, flank) + (trial%width(:, flank) - trial%start_width(flank))
             trial%follows(:, flank) = by_gap(:, flank)
-            trial%compliance(:, flank) = block%compliance(lane)*(1.0_dp + by_gap(:, flank)) + &
-                                         by_load(:, flank)*(unit/scale)
+            trial%compliance(:, flank) = block%compliance(lane)*(1.0_dp + by_gap(:, flank)) + by_load(:, flank)*(unit/scale)
          end do
       end associate
    end subroutine bend

@@ -109,8 +109,7 @@ contains
             block%damping(lane) = 2.0_dp*pi*film%squeeze/sqrt(film_scale)*problem%frequency/force_scale
             ! Lienard's form, which elastic teeth do not take.
             if (.not. has_elastic_teeth(problem)) block%slip(lane) = block%damping(lane)
-            if (.not. carried_on) &
-               block%lienard(lane, 0) = block%lienard(lane, 0) - slip_velocity(block%film(lane, 0), lane, block)
+            if (.not. carried_on) block%lienard(lane, 0) = block%lienard(lane, 0) - slip_velocity(block%film(lane, 0), lane, block)
          case (kernel_solved_fast)
             block%strength(lane) = film%rolling/film_scale/force_scale
             block%damping(lane) = film%squeeze_rate*velocity_scale/sqrt(film_scale)

@@ -1,9 +1,8 @@
 !> A block of lanes, one motion a lane: their scaled coefficients and states.
 !>
-!> Time is counted in periods of the force, x = f_exc t, within a period from 0 to 1, so the phase is as exact
-!> after hundreds of periods as in the first. The film is scaled by the power of two next to the reference
-!> film: scaling costs no digit, and a motion carried on from the state of its ending goes on as if never
-!> stopped.
+!> Time is counted in periods of the force, x = f_exc t, within a period from 0 to 1, so the phase is as exact after hundreds of
+!> periods as in the first. The film is scaled by the power of two next to the reference film: scaling costs no digit, and a motion
+!> carried on from the state of its ending goes on as if never stopped.
 module lane_block
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
@@ -167,8 +166,7 @@ contains
       force_scale = problem%mass*film_scale*problem%frequency**2
       block%film_scale(lane) = film_scale
       if (has_two_flanks(problem)) block%backlash(lane) = problem%backlash/film_scale
-      if (has_two_flanks(problem) .and. .not. has_elastic_teeth(problem)) &
-         block%widest_film(lane) = block%backlash(lane) - lost_film
+      if (has_two_flanks(problem) .and. .not. has_elastic_teeth(problem)) block%widest_film(lane) = block%backlash(lane) - lost_film
       block%velocity_scale(lane) = film_scale*problem%frequency
       block%force_scale(lane) = force_scale
       block%static_load(lane) = static_load(problem)/force_scale

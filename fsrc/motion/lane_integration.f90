@@ -39,8 +39,7 @@ module lane_integration
 contains
 
    !> Solve scenes, by Taylor series (all of one film law that has one) or by collocation.
-   subroutine integrate_lanes(by_series, problems, starts, queue, request, states, endings, watches, records, known, &
-                              displacements)
+   subroutine integrate_lanes(by_series, problems, starts, queue, request, states, endings, watches, records, known, displacements)
       !> Taylor series, else collocation
       logical, intent(in) :: by_series
       !> What moves, and where each motion starts
@@ -232,8 +231,7 @@ contains
          call take_state(lane, block, run%inner(lane), watch%state)
          if (present(known)) call look_for_known(lane, problems(watch%scene), known(watch%scene), run)
          if (watch%ending%known == 0) call find_repetition(lane, problems(watch%scene), states, run)
-         if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) &
-            call begin_period(lane, run, records)
+         if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) call begin_period(lane, run, records)
       end associate
    end subroutine end_period
 

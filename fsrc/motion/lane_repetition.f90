@@ -4,10 +4,9 @@
 !> The forecast is an extrapolation of three successive differences (fsrc/THEORY.md, section 7); where they are parallel, because
 !> the motion forgets all but one direction at once, one ratio does (Aitken). It costs no period more.
 !>
-!> A forecast is no proof: the motion goes on from there, and repeats or not by its own states (module repetition);
-!> if not, it goes back to where it was. A forecast is made only where it is safe: multipliers inside
-!> the unit circle, the same in two successive estimates, and a place that is near. So a motion that leaves an unstable one
-!> is not led back to it.
+!> A forecast is no proof: the motion goes on from there, and repeats or not by its own states (module repetition); if not, it goes
+!> back to where it was. A forecast is made only where it is safe: multipliers inside the unit circle, the same in two successive
+!> estimates, and a place that is near. So a motion that leaves an unstable one is not led back to it.
 module lane_repetition
    use engine, only: last_search_period, motion_state_t, request_t
    use kinds, only: dp, int64

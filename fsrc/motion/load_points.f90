@@ -70,8 +70,7 @@ contains
          end if
       end do
       call add_turn_at_end(nodes_per_piece, points)
-      call add(x(nodes_per_piece + 1), y(nodes_per_piece + 1), v(nodes_per_piece + 1), .false., &
-               points)
+      call add(x(nodes_per_piece + 1), y(nodes_per_piece + 1), v(nodes_per_piece + 1), .false., points)
 
    contains
 

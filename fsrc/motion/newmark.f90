@@ -82,8 +82,7 @@ contains
       !> Status of scene_status
       integer, intent(out) :: status
       type(load_t) :: load
-      real(dp) :: predicted_film, predicted_velocity, old_film, film_weight, velocity_weight, &
-                  smallest_film
+      real(dp) :: predicted_film, predicted_velocity, old_film, film_weight, velocity_weight, smallest_film
 
       ! Factors of z'' at the end of the step, and what h and z' would be there if it were zero.
       velocity_weight = 0.5_dp*time_step

@@ -364,8 +364,7 @@ contains
       integer, intent(in) :: order
       integer :: flank
 
-      error = abs(motion%velocity(0) - motion%guessed_velocity)/max(motion%fastest, abs(motion%velocity(0)), &
-                                                                    gear%velocity_floor)
+      error = abs(motion%velocity(0) - motion%guessed_velocity)/max(motion%fastest, abs(motion%velocity(0)), gear%velocity_floor)
       do flank = 1, gear%flanks
          associate (film => motion%flanks(flank))
             error = max(error, abs(film%load(0) - film%guessed_load)/(film%load(0) + gear%load_floor), &

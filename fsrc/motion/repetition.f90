@@ -179,8 +179,7 @@ contains
       do age = 1, 3
          older = state_of_age(watch, age*orbit)
          step = max(abs(newer - older), rounding*abs(newer))*sign(1.0_dp, newer - older)
-         creeping_distance = max(creeping_distance, abs(step(2) + settling%damping*step(1))/stiffness, &
-                                 abs(step(1))/sqrt(stiffness))
+         creeping_distance = max(creeping_distance, abs(step(2) + settling%damping*step(1))/stiffness, abs(step(1))/sqrt(stiffness))
          newer = older
       end do
       creeping_distance = creeping_distance/weight_of_film(watch, 3*orbit)

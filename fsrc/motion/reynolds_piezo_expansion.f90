@@ -161,8 +161,7 @@ contains
             do m = 0, count(highest_group_power >= k) - 1
                !GCC$ unroll 24
                do j = cell_degree - k - 1, m, -1
-                  c(l, first_coefficient(j) + k) = c(l, first_coefficient(j) + k) &
-                     + offset(l)*c(l, first_coefficient(j + 1) + k)
+                  c(l, first_coefficient(j) + k) = c(l, first_coefficient(j) + k) + offset(l)*c(l, first_coefficient(j + 1) + k)
                end do
             end do
          end do

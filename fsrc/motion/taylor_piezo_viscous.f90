@@ -13,8 +13,7 @@ module taylor_piezo_viscous
    implicit none(type, external)
    private
 
-   !> Growth of the load in one step that the series resolves, and share of the accuracy below which a load is
-   !> negligible [octaves]
+   !> Growth of the load in one step that the series resolves, and share of the accuracy below which a load is negligible [octaves]
    real(dp), parameter :: most_growth = 20.0_dp, negligible = -8.0_dp
 
    !> Damping beyond this would overflow the coefficients [1/periods]. The load of such a lane is held there;

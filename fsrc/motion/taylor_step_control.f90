@@ -38,8 +38,7 @@ contains
 
    !> Step of every lane. The last steps of a period are cut so that its end is hit, two of equal length
    !> rather than a long and a short one.
-   pure subroutine lane_steps(last_order, share, accuracy, force, thinner, film, lienard, damping_rate, &
-      remaining, limit, step)
+   pure subroutine lane_steps(last_order, share, accuracy, force, thinner, film, lienard, damping_rate, remaining, limit, step)
       !> Order n of the series
       integer, intent(in) :: last_order
       !> Share of the accuracy that a step may use up, over its length [1/periods]
@@ -100,8 +99,7 @@ contains
       !> P of the header [-]
       real(dp), intent(in) :: force
 
-      lienard_weight = max(1.0_dp/(free_rate + damping_rate), &
-         damping_rate*film_weight(film)/(load_error*force))
+      lienard_weight = max(1.0_dp/(free_rate + damping_rate), damping_rate*film_weight(film)/(load_error*force))
    end function lienard_weight
 
    !> Sum of two series, whose coefficients are zero where there are none. Even and odd powers go apart: four short chains instead of

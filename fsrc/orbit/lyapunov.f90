@@ -128,8 +128,7 @@ contains
       beside = pack(left,.not. has_tangents(problems(left), here(left), map_accuracy))
       n = size(along)
       moved = displacements(:, :, along)
-      if (n > 0) call solve_motions(problems(along), here(along), one_period, none(:, :, :n), endings(:n), &
-                                    displacements=moved)
+      if (n > 0) call solve_motions(problems(along), here(along), one_period, none(:, :, :n), endings(:n), displacements=moved)
       do i = 1, n
          associate (place => along(i))
             passed(place) = endings(i)%status == status_complete
