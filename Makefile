@@ -146,8 +146,8 @@ $(BUILD)/%.o: %.f90 $(BUILD)/flags
 COMPUTING := $(foreach folder,$(filter-out foundation scene files run campaign,$(MODULES)),$(wildcard fsrc/$(folder)/*.f90))
 $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(COMPUTING))): private FFLAGS += $(if $(STRICT),$(WIDENING))
 
-$(addprefix $(BUILD)/,film_series.o lane_advance.o lane_integration.o reynolds_piezo_under_load.o step_nodes.o taylor_iso_viscous.o \
-  taylor_piezo_viscous.o): private FFLAGS += $(LANE_FLAGS)
+$(addprefix $(BUILD)/,film_series.o lane_advance.o lane_integration.o step_nodes.o taylor_iso_viscous.o taylor_piezo_viscous.o \
+  taylor_reynolds_piezo.o): private FFLAGS += $(LANE_FLAGS)
 # gfortran 12 negates the stride, never set, of an optional array that is absent and handed on; nobody reads what comes of it.
 $(BUILD)/lane_integration.o: private FFLAGS += $(if $(SANITIZE),-fno-sanitize=signed-integer-overflow)
 $(BUILD)/lane_functions.o $(BUILD)/elementary_functions.o: private FFLAGS += $(ELEMENTARY_FLAGS)

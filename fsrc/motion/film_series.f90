@@ -14,10 +14,9 @@ module film_series
    use load_pieces, only: exact_load, load_limit, published_load
    use problem, only: has_elastic_teeth, has_two_flanks, problem_t
    use reynolds_piezo_expansion, only: expand_reynolds_piezo
-   use reynolds_piezo_under_load, only: expand_under_load, film_throughout
    use taylor_iso_viscous, only: iso_viscous_series
    use taylor_piezo_viscous, only: piezo_viscous_series, reject_unresolved_growth
-   use taylor_reynolds_piezo, only: reynolds_piezo_series
+   use taylor_reynolds_piezo, only: expand_under_load, film_throughout, reynolds_piezo_series
    use taylor_rupture, only: equation_rounding, reject_large_defect, rupture_order, rupture_series
    use taylor_step_control, only: film_weight, order, rounding, unfollowable_rate
    implicit none(type, external)

@@ -31,13 +31,11 @@ contains
       else if (two_flanks) then
          block
             integer, parameter :: flanks = 2
-
             include 'taylor_iso_viscous.inc'
          end block
       else
          block
             integer, parameter :: flanks = 1
-
             include 'taylor_iso_viscous.inc'
          end block
       end if

@@ -43,45 +43,39 @@ contains
       type(lane_block_t), intent(inout) :: block
       real(dp) :: slope(lanes)
 
-      if (springs) then
-         if (two_flanks) then
-            block
-               integer, parameter :: flanks = 2
-               logical, parameter :: elastic = .true.
-
-               include 'taylor_rupture.inc'
-            end block
-         else
-            block
-               integer, parameter :: flanks = 1
-               logical, parameter :: elastic = .true.
-
-               include 'taylor_rupture.inc'
-            end block
-         end if
-         return
+      if (.not. springs) then
+         associate (drive => block%expansion(1), coast => block%expansion(2))
+            call expand_load(law, block%film(:, 0), block%lienard(:, 0), block%damping, drive)
+            slope = drive%inverse_film*drive%root*drive%load_slope
+            if (two_flanks) then
+               call expand_load(law, block%backlash - block%film(:, 0), -block%lienard(:, 0), block%damping, coast)
+               slope = slope + coast%inverse_film*coast%root*coast%load_slope
+            end if
+            block%damping_rate = -block%strength*block%damping*slope
+         end associate
       end if
-      associate (drive => block%expansion(1), coast => block%expansion(2))
-         call expand_load(law, block%film(:, 0), block%lienard(:, 0), block%damping, drive)
-         slope = drive%inverse_film*drive%root*drive%load_slope
-         if (two_flanks) then
-            call expand_load(law, block%backlash - block%film(:, 0), -block%lienard(:, 0), block%damping, coast)
-            slope = slope + coast%inverse_film*coast%root*coast%load_slope
-         end if
-         block%damping_rate = -block%strength*block%damping*slope
-      end associate
-      if (two_flanks) then
+      if (springs .and. two_flanks) then
+         block
+            integer, parameter :: flanks = 2
+            logical, parameter :: elastic = .true.
+            include 'taylor_rupture.inc'
+         end block
+      else if (springs) then
+         block
+            integer, parameter :: flanks = 1
+            logical, parameter :: elastic = .true.
+            include 'taylor_rupture.inc'
+         end block
+      else if (two_flanks) then
          block
             integer, parameter :: flanks = 2
             logical, parameter :: elastic = .false.
-
             include 'taylor_rupture.inc'
          end block
       else
          block
             integer, parameter :: flanks = 1
             logical, parameter :: elastic = .false.
-
             include 'taylor_rupture.inc'
          end block
       end if
