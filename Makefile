@@ -132,7 +132,7 @@ $(BUILD)/depends.mk: $(SOURCES) $(UNIT_SOURCES) $(STRESS_SOURCES) fsrc/main.f90 
 	    for (i = 1; i <= count; i++) if ((list[i] in known) && list[i] != name) print build "/" name ".o: " build "/" list[i] ".o" } }' \
 	  $(SOURCES) $(UNIT_SOURCES) $(STRESS_SOURCES) fsrc/main.f90 > $@
 
-# A module includes the body of its procedures from a file of its own name.
+# A module includes the body of its blocks from a file of its own name.
 $(foreach body,$(wildcard fsrc/*/*.inc),$(eval $(patsubst %.inc,$(BUILD)/%.o,$(notdir $(body))): $(body)))
 
 ifeq ($(filter clean help lint format uninstall,$(MAKECMDGOALS)),)
@@ -147,7 +147,8 @@ $(BUILD)/%.o: %.f90 $(BUILD)/flags
 COMPUTING := $(foreach folder,$(filter-out foundation scene files judgement run campaign,$(MODULES)),$(wildcard fsrc/$(folder)/*.f90))
 $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(COMPUTING))): private FFLAGS += $(if $(STRICT),$(WIDENING))
 
-$(BUILD)/film_series.o $(BUILD)/lane_advance.o $(BUILD)/lane_integration.o $(BUILD)/reynolds_piezo_under_load.o $(BUILD)/step_nodes.o: private FFLAGS += $(LANE_FLAGS)
+$(addprefix $(BUILD)/,film_series.o lane_advance.o lane_integration.o step_nodes.o taylor_iso_viscous.o taylor_piezo_viscous.o \
+  taylor_reynolds_piezo.o): private FFLAGS += $(LANE_FLAGS)
 # gfortran 12 negates the stride, never set, of an optional array that is absent and handed on; nobody reads what comes of it.
 $(BUILD)/lane_integration.o: private FFLAGS += $(if $(SANITIZE),-fno-sanitize=signed-integer-overflow)
 $(BUILD)/lane_functions.o $(BUILD)/elementary_functions.o: private FFLAGS += $(ELEMENTARY_FLAGS)

@@ -41,7 +41,6 @@ KNOW_FLANKS = {
         "motion/taylor_piezo_viscous",
         "motion/taylor_reynolds_piezo",
         "motion/taylor_rupture",
-        "motion/taylor_springs",
     ),
     "implicit steps: residuals with films of both flanks, and with their springs": (
         "motion/collocation_newton",

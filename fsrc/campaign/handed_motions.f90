@@ -15,7 +15,7 @@ module handed_motions
    use scene_group, only: scene_group_t
    use scene_orbit, only: orbit_ahead
    use scene_types, only: scene_t
-   use settled_motion, only: settled_motion_t
+   use known_motions, only: settled_motion_t
    use signals, only: must_stop
    use varied_keys, only: pair_position
    implicit none(type, external)

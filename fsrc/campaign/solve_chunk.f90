@@ -5,12 +5,12 @@ module solve_chunk
    use campaign_record, only: record_number, record_row
    use engine, only: ending_t, motion_state_t, reserved_periods, start_of
    use errors, only: error_t
+   use judged_scene, only: film_model_stopped, judged_scene_t, quantity_value
+   use key_table, only: find_key
    use force, only: force_of, largest_oscillation
    use grid_blocks, only: block_scenes
    use handed_motions, only: find_other_motions
    use judge_group, only: judgement_space_t
-   use judged_scene, only: film_model_stopped, judged_scene_t, quantity_value
-   use key_table, only: find_key
    use kinds, only: dp, int64
    use memory_need, only: window_bytes
    use prepared_scene, only: prepare, prepared_scene_t, resolved_scene_t

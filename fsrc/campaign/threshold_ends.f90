@@ -10,18 +10,17 @@ module threshold_ends
    use engine, only: motion_state_t, state_of_start
    use errors, only: error_t
    use kinds, only: dp
-   use known_motions, only: are_near, known_motions_t
+   use known_motions, only: are_near, known_motions_t, near_states
    use motion_branch, only: branch_end_t, branch_point_t, end_bracketed, end_lost, end_no_start, end_of_kind, end_of_range, &
-                            follow_branch, point_at
+      follow_branch, point_at
    use motion_start, only: motion_start_t, motion_starts, start_count
    use prepared_threshold, only: prepared_threshold_t
    use problem, only: problem_t
    use quantities, only: needs_orbit, needs_starts, needs_verification, needs_verified_impacts, part_cost, part_scene, &
-                         quantity_table
+      quantity_table
    use sampling, only: scene_values
    use scene_family, only: judged_start_t, scene_family_t
    use scene_types, only: method_newmark, scene_t
-   use settled_motion, only: near_states
    use signals, only: must_stop
    use threshold_search, only: bracket_t, is_crossing, side_unknown
    implicit none(type, external)

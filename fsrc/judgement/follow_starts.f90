@@ -10,10 +10,10 @@ module follow_starts
    use coexisting_motions, only: coexisting_motions_t, told_motion_t
    use engine, only: ending_t, motion_state_t, request_t, status_of_stop, state_of_start
    use errors, only: error_t
-   use irregular_states, only: are_of_one_motion, compared_after, compared_periods
    use judged_scene, only: judged_scene_t
    use kinds, only: dp
-   use known_motions, only: reached_motion
+   use known_motions, only: are_of_one_motion, compared_after, compared_periods, known_of, reached_motion, same_motion, &
+      settled_motion_t
    use many_motions, only: solve_motions
    use motion_start, only: chosen_starts, motion_start_t, motion_starts, one_start_reason, start_count, start_is_given
    use node_extremes, only: seen_films, seen_quantities
@@ -25,7 +25,6 @@ module follow_starts
    use scene_orbit, only: nearby_orbit, orbit_ahead
    use scene_status, only: is_success, status_complete
    use scene_types, only: scene_t
-   use settled_motion, only: known_of, same_motion, settled_motion_t
    use signals, only: must_stop
    use text_output, only: lock_texts, unlock_texts
    use vibration_severity, only: severity_of_record, vibration_severity_t

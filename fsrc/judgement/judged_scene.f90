@@ -11,7 +11,7 @@ module judged_scene
    use vibration_severity, only: vibration_severity_t
    use nodal_step, only: nodal_choice_t
    use node_extremes, only: seen_acceleration, seen_films, seen_loads, seen_position, seen_pressure, seen_velocity
-   use nodal_orbit, only: orbit_unasked
+   use nodal_orbit, only: orbit_not_requested
    use periodic_orbit, only: orbit_stability, periodic_orbit_t
    use quantities
    use carried_loads, only: contact_film
@@ -23,7 +23,7 @@ module judged_scene
    use prepared_scene, only: resolved_scene_t
    use scene_status, only: status_complete, status_no_rigid_film
    use scene_types, only: drag_computed, drag_t, drag_unknown
-   use settled_motion, only: settled_motion_t
+   use known_motions, only: settled_motion_t
    use window_extremes, only: window_extremes_t
    use window_impacts, only: double_sided_impacts, has_reversal, has_separation, verdict_of, window_impacts_t
    implicit none(type, external)
@@ -59,7 +59,7 @@ module judged_scene
       !> The periodic motion behind it, where one was looked for
       type(periodic_orbit_t) :: orbit
       !> Of films in nodes: whether one was found, and why not, as of module nodal_orbit
-      integer :: orbit_outcome = orbit_unasked
+      integer :: orbit_outcome = orbit_not_requested
       !> The motions that all starts have led to, where others were followed
       type(coexisting_motions_t) :: coexisting
       !> The same ones with all their states

@@ -1,7 +1,7 @@
 !> A scene as it is solved and judged: what follows from it, the limits of its classes, and what its engine is asked.
 module prepared_scene
    use constants, only: two_pi
-   use collocation_basis, only: pass_share
+   use collocation_basis, only: iteration_share
    use engine, only: request_t
    use film_pressure, only: pressure_scale
    use flank_elasticity, only: deflection_by_load
@@ -124,7 +124,7 @@ contains
          resolved%noise_by_accuracy = noise_of_steps(minval(rest), stiffness/mass, damping/mass, &
                                                      force/mass, problem%frequency)
          ! What is left over of the compression of contacts when the iterations of an implicit step end
-         resolved%noise_by_accuracy = max(resolved%noise_by_accuracy, acceleration_by_lengths(problem, pass_share*minval(rest)))
+        resolved%noise_by_accuracy = max(resolved%noise_by_accuracy, acceleration_by_lengths(problem, iteration_share*minval(rest)))
          ! Steps of films in nodes follow the loads that there are, to shares of them.
          if (film%in_nodes) resolved%noise_by_accuracy = nodal_share*force/mass
          ! Newmark's steps are not chosen by an accuracy, and at rest they stand still. What a loose tolerance makes of them

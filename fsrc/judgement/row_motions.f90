@@ -4,10 +4,10 @@ module row_motions
    use starting_state, only: keep_by_contacts, kept_by_contacts
    use classify_group, only: classify_windows, follow_irregular
    use coexisting_motions, only: coexisting_motions_t, told_motion_t
-   use engine, only: asks_for_same, motion_state_t
+   use engine, only: same_request, motion_state_t
    use errors, only: error_t
    use kinds, only: dp
-   use known_motions, only: are_near, known_motions_t
+   use known_motions, only: are_near, known_motions_t, known_of, near_states, same_motion, settled_motion_t
    use node_extremes, only: seen_films, seen_loads, seen_net_load, seen_quantities
    use periodic_orbit, only: map_states
    use problem, only: problem_t, state_size
@@ -15,7 +15,6 @@ module row_motions
    use prepared_scene, only: prepared_scene_t, with_accuracy
    use scene_group, only: scene_group_t, solve_group
    use scene_status, only: is_success
-   use settled_motion, only: known_of, near_states, same_motion, settled_motion_t
    use signals, only: must_stop
    use vibration_severity, only: severity_of_record, vibration_severity_t
    use window_extremes, only: extremes_of_record
@@ -181,7 +180,7 @@ contains
       left = .true.
       do while (any(left))
          first = findloc(left, .true., dim=1)
-         together = left .and. [(asks_for_same(scenes(trials(first)%scene)%request, scenes(trials(i)%scene)%request), &
+         together = left .and. [(same_request(scenes(trials(first)%scene)%request, scenes(trials(i)%scene)%request), &
                                  i=1, size(trials))]
          call solve_alike(pack([(i, i=1, size(trials))], together))
          if (must_stop() .or. allocated(error)) return

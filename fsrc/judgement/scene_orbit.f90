@@ -2,12 +2,11 @@
 module scene_orbit
    use engine, only: ending_t, motion_state_t, request_t
    use kinds, only: dp
-   use known_motions, only: are_near, distance_of, known_motions_t
+   use known_motions, only: are_near, distance_of, known_motions_t, near_states
    use many_motions, only: solve_motions
    use periodic_orbit, only: attracting_period, find_periodic_orbit, map_states, periodic_orbit_t
    use problem, only: problem_t
    use scene_status, only: status_complete
-   use settled_motion, only: near_states
    use text_output, only: lock_texts, unlock_texts
    implicit none(type, external)
    private

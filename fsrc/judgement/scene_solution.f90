@@ -1,7 +1,7 @@
 !> From prepared scenes to judged ones: scenes side by side by the controlled engine, a single one by the engine of its own.
 module scene_solution
    use controlled_engine, only: solve_controlled
-   use engine, only: asks_for_same, checkpoint_t, ending_t, motion_state_t, motion_watcher_t, unwatched_t
+   use engine, only: same_request, checkpoint_t, ending_t, motion_state_t, motion_watcher_t, unwatched_t
    use errors, only: error_t
    use judge_group, only: judge_scenes, judgement_space_t
    use judged_scene, only: judged_scene_t
@@ -40,7 +40,7 @@ contains
       integer :: first, together
 
       if (size(scenes) == 0) return
-      together = merge(size(scenes), 1, all(asks_for_same(scenes%request, scenes(1)%request)))
+      together = merge(size(scenes), 1, all(same_request(scenes%request, scenes(1)%request)))
       do first = 1, size(scenes), together
          associate (last => first + together - 1)
             call solve_group(scenes(first:last), starts(first:last), needed(:seen_quantities), space%group)

@@ -12,7 +12,7 @@ module collocation_basis
    !> Share of the accuracy for the last coefficient of a polynomial, and for the first one left out.
    real(dp), parameter, public :: last_share = 40.0_dp, next_share = 2.0_dp
    !> Share of the accuracy at which the iterations end
-   real(dp), parameter, public :: pass_share = 1.0e-2_dp
+   real(dp), parameter, public :: iteration_share = 1.0e-2_dp
    !> Error that is rounding alone, as a share of the film
    real(dp), parameter, public :: rounding = 16.0_dp*epsilon(1.0_dp)
    !> Longest step [periods]

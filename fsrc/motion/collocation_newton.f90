@@ -1,7 +1,7 @@
 !> Newton's method for the equations of collocation (collocation_step), for a block of lanes: states at the
 !> nodes, load and slopes there, linear equations, corrections.
 module collocation_newton
-   use collocation_basis, only: pass_share, rounding
+   use collocation_basis, only: rounding, iteration_share
    use film_law, only: overflow_load
    use film_state, only: load_t
    use flank_contact, only: flank_contact_t, is_costly, load_of_contact, mixed_loads
@@ -9,18 +9,18 @@ module collocation_newton
    use lane_block, only: lane_block_t
    use lane_functions, only: half_block, lanes
    use radau_nodes, only: node, once, stages, twice
-   use taylor_step_control, only: film_weight, lienard_weight
+   use taylor_step_control, only: film_weight, lienard_weight, sign_of
    implicit none(type, external)
    private
 
    !> Ratio of two corrections below which Newton's method is sure to converge quadratically.
    real(dp), parameter :: fast = 0.03_dp
 
-   !> What a pass of Newton's method says of the next.
-   type, public :: newton_pass_t
+   !> What an iteration of Newton's method says of the next.
+   type, public :: newton_iteration_t
       !> Largest correction of the accelerations, and largest residual before it [-]
-      real(dp), dimension(lanes) :: change = huge(1.0_dp), imbalance = huge(1.0_dp)
-   end type newton_pass_t
+      real(dp), dimension(lanes) :: change = huge(1.0_dp), residual = huge(1.0_dp)
+   end type newton_iteration_t
 
    public :: stage_states, scaled_load, residual_and_matrix, solve_lanes, correct, allowed, thinner
 
@@ -49,8 +49,7 @@ contains
                   second = second + twice(i, j)*k(l, j)
                end do
                lienard(l, i) = block%lienard(l, 0) + block%step(l)*first
-               film(l, i) = block%film(l, 0) + block%step(l)*(node(i)*block%lienard(l, 0) &
-                  + block%step(l)*second)
+               film(l, i) = block%film(l, 0) + block%step(l)*(node(i)*block%lienard(l, 0) + block%step(l)*second)
             end do
          end do
       end do
@@ -120,53 +119,39 @@ contains
       real(dp), dimension(lanes*stages) :: thickness, velocity
       type(load_t) :: loads(lanes*stages), net
       integer :: lane_of(lanes*stages), stage_of(lanes*stages)
-      integer :: l, i, n
+      integer :: flank, l, i, n
 
       load = 0.0_dp
       by_film = 0.0_dp
       by_lienard = 0.0_dp
-      n = 0
-      do l = 1, lanes
-         if (.not. busy(l)) cycle
-         do i = 1, stages
-            if (.not. thinner(film(l, i), l, block) > 0.0_dp) exit
-            n = n + 1
-            lane_of(n) = l
-            stage_of(n) = i
-            thickness(n) = film(l, i)*block%film_scale(l)
-            velocity(n) = lienard(l, i)*block%velocity_scale(l)
+      do flank = 1, 2
+         n = 0
+         do l = 1, lanes
+            if (.not. busy(l) .or. (flank == 2 .and. .not. block%backlash(l) < huge(1.0_dp))) cycle
+            do i = 1, stages
+               if (.not. thinner(film(l, i), l, block) > 0.0_dp) exit
+               n = n + 1
+               lane_of(n) = l
+               stage_of(n) = i
+               thickness(n) = merge(film(l, i), block%backlash(l) - film(l, i), flank == 1)*block%film_scale(l)
+               velocity(n) = sign_of(flank)*lienard(l, i)*block%velocity_scale(l)
+            end do
          end do
-      end do
-      call mixed_loads(contacts, lane_of(:n), thickness(:n), velocity(:n), loads(:n))
-      do i = 1, n
-         l = lane_of(i)
-         call scale_load(block, l, loads(i))
-         load(l, stage_of(i)) = loads(i)%load
-         by_film(l, stage_of(i)) = loads(i)%by_film
-         by_lienard(l, stage_of(i)) = loads(i)%by_velocity
-      end do
-      n = 0
-      do l = 1, lanes
-         if (.not. (busy(l) .and. block%backlash(l) < huge(1.0_dp))) cycle
-         do i = 1, stages
-            if (.not. thinner(film(l, i), l, block) > 0.0_dp) exit
-            n = n + 1
-            lane_of(n) = l
-            stage_of(n) = i
-            thickness(n) = (block%backlash(l) - film(l, i))*block%film_scale(l)
-            velocity(n) = -lienard(l, i)*block%velocity_scale(l)
+         if (n == 0) return
+         call mixed_loads(contacts, lane_of(:n), thickness(:n), velocity(:n), loads(:n))
+         do i = 1, n
+            associate (l => lane_of(i), stage => stage_of(i))
+               call scale_load(block, l, loads(i))
+               net = loads(i)
+               if (flank == 2) then
+                  net = load_t(load(l, stage), by_film(l, stage), by_lienard(l, stage))
+                  call subtract_coast(loads(i), net)
+               end if
+               load(l, stage) = net%load
+               by_film(l, stage) = net%by_film
+               by_lienard(l, stage) = net%by_velocity
+            end associate
          end do
-      end do
-      if (n == 0) return
-      call mixed_loads(contacts, lane_of(:n), thickness(:n), velocity(:n), loads(:n))
-      do i = 1, n
-         l = lane_of(i)
-         call scale_load(block, l, loads(i))
-         net = load_t(load(l, stage_of(i)), by_film(l, stage_of(i)), by_lienard(l, stage_of(i)))
-         call subtract_coast(loads(i), net)
-         load(l, stage_of(i)) = net%load
-         by_film(l, stage_of(i)) = net%by_film
-         by_lienard(l, stage_of(i)) = net%by_velocity
       end do
    end subroutine loads_of_stages
 
@@ -275,17 +260,17 @@ contains
    end subroutine solve_half
 
    !> Apply Newton's correction; lanes whose correction is small enough are done, those that diverge given up.
-   pure subroutine correct(contacts, busy, pass, imbalance, correction, last, block, k)
+   pure subroutine correct(contacts, busy, iteration, residual, correction, last, block, k)
       type(flank_contact_t), intent(in) :: contacts(lanes)
       logical, intent(inout) :: busy(lanes)
-      !> Number of this pass
-      integer, intent(in) :: pass
+      !> Number of this iteration
+      integer, intent(in) :: iteration
       !> Largest residual before the correction [-]
-      real(dp), intent(in) :: imbalance(lanes)
+      real(dp), intent(in) :: residual(lanes)
       !> Of the accelerations [-]
       real(dp), intent(in) :: correction(lanes, stages)
-      !> The pass before, then this one
-      type(newton_pass_t), intent(inout) :: last
+      !> The iteration before, then this one
+      type(newton_iteration_t), intent(inout) :: last
       type(lane_block_t), intent(inout) :: block
       real(dp), intent(inout) :: k(lanes, stages)
       real(dp) :: ratio, change, film_change
@@ -293,25 +278,25 @@ contains
 
       do l = 1, lanes
          if (.not. busy(l)) then
-            if (block%trust(l) > 0.0_dp .and. block%no_load(l)) block%trust(l) = 0.0_dp
+            if (block%accepted(l) > 0.0_dp .and. block%no_load(l)) block%accepted(l) = 0.0_dp
             cycle
          end if
          k(l, :) = k(l, :) + correction(l, :)
          change = maxval(abs(correction(l, :)))
          film_change = change*block%step(l)/allowed(block%film(l, 0), l, block) &
             *min(block%step(l), lienard_weight(thinner(block%film(l, 0), l, block), block%damping_rate(l), block%force(l)))
-         ! From the second pass on: the next correction will be smaller by the same factor at least, and where
+         ! From the second iteration on: the next correction will be smaller by the same factor at least, and where
          ! corrections fall fast by its square, if the slopes of the film law are the total ones. But not where a
          ! correction went too far, to where the film is stiff: the ones that lead back are small, and many.
-         ratio = merge(1.0_dp, min(1.0_dp, max(change/last%change(l), imbalance(l)/last%imbalance(l))), pass == 1)
+         ratio = merge(1.0_dp, min(1.0_dp, max(change/last%change(l), residual(l)/last%residual(l))), iteration == 1)
          if (ratio < fast .and. is_costly(contacts(l))) ratio = ratio*ratio
-         busy(l) = film_change*ratio > pass_share
-         if (busy(l) .and. pass > 3 .and. change > 2.0_dp*last%change(l)) then
+         busy(l) = film_change*ratio > iteration_share
+         if (busy(l) .and. iteration > 3 .and. change > 2.0_dp*last%change(l)) then
             busy(l) = .false.
-            block%trust(l) = 0.0_dp
+            block%accepted(l) = 0.0_dp
          end if
          last%change(l) = change
-         last%imbalance(l) = imbalance(l)
+         last%residual(l) = residual(l)
       end do
    end subroutine correct
 

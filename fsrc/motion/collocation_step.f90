@@ -6,7 +6,7 @@
 module collocation_step
    use collocation_basis, only: can_extrapolate, carry_on, choose_steps, error_of_acceleration, forces_of_stages, growth_of, &
       series_of_motion
-   use collocation_newton, only: allowed, correct, newton_pass_t, residual_and_matrix, scaled_load, solve_lanes, stage_states, &
+  use collocation_newton, only: allowed, correct, newton_iteration_t, residual_and_matrix, scaled_load, solve_lanes, stage_states, &
       thinner
    use film_state, only: load_t
    use flank_contact, only: flank_contact_t
@@ -20,7 +20,7 @@ module collocation_step
    private
 
    !> Newton's iterations before the step is given up
-   integer, parameter :: most_passes = 10
+   integer, parameter :: most_iterations = 10
    !> Largest of the integrals of the integral of w, of the header.
    real(dp), parameter :: twice_between = 1.2320e-3_dp
    !> Step over the one before, at most, and its share of what the error allows
@@ -36,29 +36,28 @@ contains
       type(flank_contact_t), intent(in) :: contacts(lanes)
       !> Lanes with a scene
       logical, intent(in) :: occupied(lanes)
-      !> The block; leaves the film and velocity that the step leads to, whether they are to be trusted, and
-      !> series for the samples
+      !> The block; leaves the film and velocity that the step leads to, whether they are accepted, and series for the samples
       type(lane_block_t), intent(inout) :: block
       real(dp) :: force(lanes, stages), k(lanes, stages), film(lanes, stages), lienard(lanes, stages)
-      real(dp) :: residual(lanes, stages), matrix(lanes, stages, stages), imbalance(lanes)
-      type(newton_pass_t) :: last
+      real(dp) :: residual(lanes, stages), matrix(lanes, stages, stages), largest(lanes)
+      type(newton_iteration_t) :: last
       logical :: busy(lanes)
-      integer :: pass
+      integer :: iteration
 
       call choose_steps(block)
       call forces_of_stages(block, force)
       call first_iterate(contacts, occupied, block, k)
       busy = occupied
-      block%trust = merge(1.0_dp, 0.0_dp, occupied)
-      do pass = 1, most_passes
+      block%accepted = merge(1.0_dp, 0.0_dp, occupied)
+      do iteration = 1, most_iterations
          call stage_states(busy, block, k, film, lienard)
          call residual_and_matrix(contacts, force, k, film, lienard, block, busy, residual, matrix)
-         imbalance = maxval(abs(residual), dim=2)
+         largest = maxval(abs(residual), dim=2)
          call solve_lanes(busy, matrix, residual)
-         call correct(contacts, busy, pass, imbalance, residual, last, block, k)
+         call correct(contacts, busy, iteration, largest, residual, last, block, k)
          if (.not. any(busy)) exit
       end do
-      where (busy) block%trust = 0.0_dp
+      where (busy) block%accepted = 0.0_dp
       call stage_states(occupied, block, k, film, lienard)
       call judge(occupied, k, film, lienard, block)
    end subroutine take_collocation_step
@@ -107,20 +106,19 @@ contains
       do l = 1, lanes
          if (.not. occupied(l)) cycle
          growth = growth_of(huge(1.0_dp), most_growth, step_share)
-         if (block%trust(l) > 0.0_dp) then
+         if (block%accepted(l) > 0.0_dp) then
             polynomial = matmul(power, k(l, :))
             weight = lienard_weight(thinner(block%film(l, 0), l, block), block%damping_rate(l), block%force(l))
             error = error_of_acceleration(polynomial, block%step(l), weight)
             between = abs(at_start(polynomial) - block%acceleration(l))*twice_between*block%step(l)**2
-            error = max(error, between) &
-               /min(allowed(block%film(l, 0), l, block), allowed(minval(film(l, :)), l, block), &
+            error = max(error, between)/min(allowed(block%film(l, 0), l, block), allowed(minval(film(l, :)), l, block), &
                     allowed(maxval(film(l, :)), l, block))
             growth = growth_of(error, most_growth, step_share)
             if (.not. error <= 1.0_dp .or. &
-                min(minval(film(l, :)), block%backlash(l) - maxval(film(l, :))) <= 0.0_dp) block%trust(l) = 0.0_dp
+                min(minval(film(l, :)), block%backlash(l) - maxval(film(l, :))) <= 0.0_dp) block%accepted(l) = 0.0_dp
          end if
          block%proposed(l) = growth*block%step(l)
-         if (block%trust(l) > 0.0_dp) then
+         if (block%accepted(l) > 0.0_dp) then
             block%next_film(l) = film(l, stages)
             block%next_lienard(l) = lienard(l, stages)
             block%polynomial(l, :) = polynomial

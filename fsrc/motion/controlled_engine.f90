@@ -1,12 +1,11 @@
 !> Single motion by the controlled engine: the same lanes as in a campaign, one of them used.
 !>
-!> The motion is solved in blocks of periods, each carried on from the one before to the last bit, with the samples
-!> that are wanted. A run that stops once the motion repeats looks for that block by block, and then solves the one
-!> orbit that it is judged by.
+!> The motion is solved in blocks of periods, each carried on from the one before to the last bit, with the samples that are wanted.
+!> A run that stops once the motion repeats looks for that block by block, and then solves the one orbit that it is judged by.
 module controlled_engine
    use clock, only: wall_seconds
-   use engine, only: checkpoint_t, ending_t, last_search_period, motion_state_t, motion_watcher_t, request_t, &
-      reserved_periods, sample_sink_t, start_of, status_of_stop
+   use engine, only: checkpoint_t, ending_t, last_search_period, motion_state_t, motion_watcher_t, request_t, reserved_periods, &
+      sample_sink_t, start_of, status_of_stop
    use errors, only: error_t
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
@@ -32,17 +31,17 @@ contains
    subroutine solve_controlled(problem, request, sink, watcher, checkpoint, ending, record, error)
       !> What moves
       type(problem_t), intent(in) :: problem
-      !> What is asked for
+      !> What is requested
       type(request_t), intent(in) :: request
       !> Takes the samples
       class(sample_sink_t), intent(inout) :: sink
-      !> Told of progress
+      !> Is called after every period
       class(motion_watcher_t), intent(inout) :: watcher
       !> State to carry on from, and then the one from which the run can be extended
       type(checkpoint_t), intent(inout) :: checkpoint
       !> How it ended
       type(ending_t), intent(out) :: ending
-      !> What the steps of the window tell
+      !> Record of the steps of the window
       type(window_record_t), intent(out) :: record
       !> Set if the sink failed
       type(error_t), allocatable, intent(out) :: error
@@ -78,7 +77,7 @@ contains
       if (ending%orbit > 0 .and. ending%status == status_complete) ending%status = status_steady
    end subroutine solve_controlled
 
-   !> States and accelerations of the last periods of a motion, what its steps tell, and how it ended.
+   !> States and accelerations of the last periods of a motion, the record of its steps, and how it ended.
    subroutine solve_window(problem, start, accuracy, samples_per_period, periods, window, states, values, ending, record, &
                            impact_limit, until_steady)
       !> What moves
@@ -97,9 +96,9 @@ contains
       real(dp), allocatable, intent(out) :: values(:)
       !> How it ended
       type(ending_t), intent(out) :: ending
-      !> What the steps tell of the last periods
+      !> Record of the steps of the last periods
       type(window_record_t), intent(out) :: record
-      !> Multiple of the largest force above which loads are impacts, where these are asked for
+      !> Multiple of the largest force above which loads are impacts, where these are requested
       real(dp), intent(in), optional :: impact_limit
       !> Whether the motion ends where it repeats; what is sampled is then what repeats. Absent: all periods
       logical, intent(in), optional :: until_steady
@@ -150,7 +149,7 @@ contains
       do while (here%periods < last .and. checkpoint%orbit == 0)
          block_request%periods = min(last, here%periods + block)
          call solve_motions([problem], [here], block_request, none, endings, watches)
-         ! Where the search ends is known only now: samples, if wanted, are made by solving the block again.
+         ! Where the search ends follows only now: samples, if wanted, are made by solving the block again.
          if (request%all_samples) then
             call solve_sampled(problem, request, here, endings(1)%periods + merge(0, 1, can_go_on(endings(1)%status) .or. &
                                                                                   is_success(endings(1)%status)), &
@@ -175,7 +174,7 @@ contains
       end do
    end subroutine search_blocks
 
-   !> Solve up to a known period in blocks and hand over the samples that are wanted.
+   !> Solve up to a given period in blocks and hand over the samples that are wanted.
    subroutine solve_blocks(problem, request, here, started, periods, window, sink, watcher, checkpoint, ending, record, error)
       type(problem_t), intent(in) :: problem
       type(request_t), intent(in) :: request
@@ -254,7 +253,7 @@ contains
       integer, intent(in) :: last
       class(sample_sink_t), intent(inout) :: sink
       type(ending_t), intent(out) :: found
-      !> What the steps tell, added to what they told before
+      !> Record of the steps, added to that of the steps before
       type(window_record_t), optional, intent(inout) :: records(:)
       type(error_t), allocatable, intent(out) :: error
       type(request_t) :: block_request

@@ -1,17 +1,17 @@
 !> Newton's method for the loads of an implicit step (module elastic_step). The equations of films without a state stand here: by how
 !> much their laws miss at the nodes, and what the loads change of that; those of films with one stand in module inner_equations.
 module elastic_newton
-   use collocation_basis, only: pass_share, rounding
-   use elastic_trial, only: follow_loads, sign_of, trial_t
+   use collocation_basis, only: rounding, iteration_share
+   use elastic_trial, only: follow_loads, trial_t
    use film_law, only: kept_load, most_films
    use flank_contact, only: carries_positive_loads, equations_of_films, film_equations_t, flank_contact_t, keeps_load
-   use inner_equations, only: follow_films, inner_imbalances, inner_matrix, trial_inner_t
+   use inner_equations, only: follow_films, inner_matrix, trial_inner_t, inner_residuals
    use kinds, only: dp
    use lane_block, only: lane_block_t
-   use lane_inner, only: lane_inner_t
+   use lane_state, only: lane_inner_t
    use radau_nodes, only: once_rows, rows, slope_rows, stages, twice_rows, weigh
    use step_elimination, only: factorise, factors_t, most_columns, most_rows, substitute
-   use taylor_step_control, only: film_weight, free_rate
+   use taylor_step_control, only: film_weight, free_rate, sign_of
    implicit none(type, external)
    private
 
@@ -26,10 +26,10 @@ module elastic_newton
    real(dp), parameter :: velocity_share = 10.0_dp
 
    !> Newton's iterations before the step is given up
-   integer, parameter :: most_passes = 12
-   !> The second pass takes the slopes of the first, and so do the next ones while corrections fall to less than this in a pass.
+   integer, parameter :: most_iterations = 12
+   !> The second iteration takes the slopes of the first, and so do the next ones while corrections fall to less than this share.
    real(dp), parameter :: fast_fall = 1.0e-2_dp
-   !> Corrections that fall by less than this in a pass, after some, lead nowhere
+   !> Corrections that fall by less than this from one iteration to the next, after some, lead nowhere
    real(dp), parameter :: slowest_fall = 0.9_dp
 
    !> A correction leaves at least this share of every film, and of the load of one that never pulls
@@ -40,7 +40,7 @@ module elastic_newton
    !> too small.
    real(dp), parameter :: last_rise = 0.5_dp
 
-   public :: solve_loads, allowed_here, imbalances, newton_matrix
+   public :: solve_loads, allowed_here, residuals, newton_matrix
 
 contains
 
@@ -59,7 +59,7 @@ contains
       type(factors_t) :: factors
       real(dp) :: matrix(most_rows, most_columns), right(most_rows), solution(most_columns), correction(rows, 2)
       real(dp) :: change, last_change, ratio, reach, share, state_change
-      integer :: pass, flank, i
+      integer :: iteration, flank, i
       logical :: found, stalled, rising, anew, of_velocities(most_rows)
 
       of_velocities = .false.
@@ -70,12 +70,12 @@ contains
       trial%film(:, 2) = trial%start(2)
       call follow_loads(contact, lane, force, block, trial)
       anew = .true.
-      do pass = 1, most_passes
+      do iteration = 1, most_iterations
          if (inner%count > 0) then
-            call inner_imbalances(contact, lane, block, trial, inner_trial, right, found)
+            call inner_residuals(contact, lane, block, trial, inner_trial, right, found)
             anew = .true.
          else
-            call imbalances(contact, lane, block, trial, right, slopes, found)
+            call residuals(contact, lane, block, trial, right, slopes, found)
             anew = anew .or. any(slopes%of_velocities .neqv. of_velocities)
             of_velocities = slopes%of_velocities
          end if
@@ -131,9 +131,9 @@ contains
          if (last_change < huge(1.0_dp)) ratio = min(1.0_dp, change/last_change)
          anew = last_change < huge(1.0_dp) .and. ratio > fast_fall
          ! Corrections that fall no more are rounding, which a short step magnifies: within the accuracy they are accepted.
-         stalled = pass > 4 .and. change > slowest_fall*last_change
-         if (max(change*reach*ratio, state_change) <= merge(1.0_dp, pass_share, stalled)*allowed_here(lane, block, trial)) then
-            if (minval(trial%film(:, :trial%flanks)) > 0.0_dp) block%trust(lane) = 1.0_dp
+         stalled = iteration > 4 .and. change > slowest_fall*last_change
+         if (max(change*reach*ratio, state_change) <= merge(1.0_dp, iteration_share, stalled)*allowed_here(lane, block, trial)) then
+            if (minval(trial%film(:, :trial%flanks)) > 0.0_dp) block%accepted(lane) = 1.0_dp
             return
          end if
          if (stalled) return
@@ -197,7 +197,7 @@ contains
 
    !> By how much the film laws miss at the nodes, and their slopes; none where a film has no load. A film without thickness is to
    !> be what it was at the start.
-   pure subroutine imbalances(contact, lane, block, trial, right, slopes, found)
+   pure subroutine residuals(contact, lane, block, trial, right, slopes, found)
       type(flank_contact_t), intent(in) :: contact
       integer, intent(in) :: lane
       type(lane_block_t), intent(inout) :: block
@@ -238,7 +238,7 @@ contains
          end do
          right(rows*flank) = 0.0_dp
       end do
-   end subroutine imbalances
+   end subroutine residuals
 
    !> The equations in scaled units.
    pure subroutine scale_laws(n, film_unit, velocity_unit, force_unit, laws, load, velocity, right, slopes)

@@ -1,18 +1,9 @@
 !> Implicit steps by collocation for contacts with numbers of their own, lane by lane: elastic teeth, films with a state, of any
 !> law and stiffness, one flank or two.
 !>
-!> A spring stands between the gear and each film. Within a step of length s the loads W_1 and W_2 are polynomials in c = 0..1
-!> through their values at the seven nodes of Radau. They move the gear, the springs follow them, and the films are what gear and
-!> springs leave,
-!>
-!>     A_i = W_1i - W_2i - F(x + c_i s) ,     V_i = V + s sum(once_ij A_j) ,     Z_i - Z = c_i s V + s**2 sum(twice_ij A_j) ,
-!>     H_1i = H_1 + (Z_i - Z) + kappa W_1i - D_1 ,     H_1i' = V_i + sum(slope_ij (kappa W_1j - D_1))/s ,
-!>
-!> for the coast film with the signs of Z and V turned (module elastic_trial). The film law at each node is solved for the loads by
-!> Newton's method with its slopes (module elastic_newton): as H_i' = w(H_i, W_i) where its load tells its velocity, else as
-!> W(H_i, H_i') = W_i. Loads that do not fall to nothing count from those of the springs at the start, so that kappa W_i - D_1 keeps
-!> its digits. Nothing here grows with the stiffness: at kappa = 0 these are the equations of module collocation_step. A state of a
-!> film is taken out of these equations contact by contact (module inner_step), and brought after once the loads are corrected.
+!> The loads at the nodes are the unknowns: gear, springs and films follow from them (module elastic_trial), and Newton's method makes
+!> the film laws hold (module elastic_newton; fsrc/THEORY.md, section 6). A state of a film is taken out of these equations contact by
+!> contact (module inner_step), and brought after once the loads are corrected.
 !>
 !> The error is that of rigid teeth, of the polynomial of the acceleration (module collocation_basis); a load that is off moves its
 !> film by kappa as well, and so counts the first coefficient of its polynomial that is left out.
@@ -27,7 +18,7 @@ module elastic_step
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_functions, only: lanes
-   use lane_inner, only: lane_inner_t
+   use lane_state, only: lane_inner_t
    use radau_nodes, only: meet_start, power, power_rows, powers_of_place, rows, stages, weigh
    use taylor_step_control, only: free_rate
    implicit none(type, external)
@@ -47,7 +38,7 @@ contains
       type(flank_contact_t), intent(in) :: contacts(lanes)
       !> Lanes with a scene
       logical, intent(in) :: occupied(lanes)
-      !> The block; leaves the state that the step leads to, whether it is to be trusted, and series for the samples
+      !> The block; leaves the state that the step leads to, whether it is accepted, and series for the samples
       type(lane_block_t), intent(inout) :: block
       !> and the same of the states of the films
       type(lane_inner_t), intent(inout) :: inner(lanes)
@@ -62,7 +53,7 @@ contains
       call forces_of_stages(block, force)
       block%next_film = block%film(:, 0)
       block%next_lienard = block%lienard(:, 0)
-      block%trust = 0.0_dp
+      block%accepted = 0.0_dp
       do l = 1, lanes
          if (.not. occupied(l)) cycle
          trial%flanks = merge(2, 1, block%backlash(l) < huge(1.0_dp))
@@ -73,7 +64,7 @@ contains
          lane_force(rows) = force(l, stages)
          call solve_loads(contacts(l), l, lane_force, block, inner(l), trial, states)
          call judge(contacts(l)%film%bends, l, trial, block, inner(l), states)
-         if (block%trust(l) > 0.0_dp .and. allocated(tangents(l)%now)) &
+         if (block%accepted(l) > 0.0_dp .and. allocated(tangents(l)%now)) &
             call carry_tangents(contacts(l), l, trial, block, tangents(l))
       end do
    end subroutine take_elastic_step
@@ -85,10 +76,10 @@ contains
       integer :: l
 
       do l = 1, lanes
-         if (block%trust(l) > 0.0_dp) block%compression(l, :, 0) = block%next_compression(l, :)
+         if (block%accepted(l) > 0.0_dp) block%compression(l, :, 0) = block%next_compression(l, :)
       end do
       do l = 1, lanes
-         if (inner(l)%count > 0 .and. block%trust(l) > 0.0_dp) inner(l)%now(:) = inner(l)%next
+         if (inner(l)%count > 0 .and. block%accepted(l) > 0.0_dp) inner(l)%now(:) = inner(l)%next
       end do
    end subroutine advance_contacts
 
@@ -105,7 +96,7 @@ contains
       integer :: flank
 
       error = huge(1.0_dp)
-      if (block%trust(lane) > 0.0_dp) then
+      if (block%accepted(lane) > 0.0_dp) then
          associate (s => block%step(lane), kappa => block%compliance(lane))
             call weigh(power_rows, trial%acceleration, polynomial(:, 0))
             error = error_of_acceleration(polynomial(:stages, 0), s, 1.0_dp/free_rate)
@@ -121,10 +112,10 @@ contains
             if (inner%count > 0) error = max(error, error_of_states(lane, block, trial%flanks, states%films, inner))
             error = error/allowed_here(lane, block, trial)
          end associate
-         if (.not. error <= 1.0_dp) block%trust(lane) = 0.0_dp
+         if (.not. error <= 1.0_dp) block%accepted(lane) = 0.0_dp
       end if
       block%proposed(lane) = block%step(lane)*growth_of(error, most_growth, step_share)
-      if (.not. block%trust(lane) > 0.0_dp) return
+      if (.not. block%accepted(lane) > 0.0_dp) return
       block%next_film(lane) = trial%film(stages, 1)
       block%next_lienard(lane) = trial%lienard(stages)
       block%next_compression(lane, :trial%flanks) = block%compliance(lane)*trial%load(stages, :trial%flanks)

@@ -1,12 +1,9 @@
 !> Small displacements of the motion in a lane, carried along its implicit steps (module elastic_step): the derivative of the step
-!> itself, not a difference of motions beside each other.
-!>
-!> The loads of a step make its film laws hold, R(W, y) = 0, with y the state at its start. A displacement dy moves them by the
-!> solution of -R_W dW = R_y dy: the matrix is that of Newton's method where this has ended, and every displacement is one more
-!> right-hand side. Gear, springs and films at the end follow from dW and dy as they follow from W and y.
+!> itself, not a difference of motions beside each other. The matrix is that of Newton's method where this has ended, and every
+!> displacement is one more right-hand side (fsrc/THEORY.md, section 6).
 module elastic_tangents
-   use elastic_newton, only: imbalances, newton_matrix, slopes_t
-   use elastic_trial, only: sign_of, trial_t
+   use elastic_newton, only: newton_matrix, slopes_t, residuals
+   use elastic_trial, only: trial_t
    use film_law, only: width_compression
    use flank_contact, only: flank_contact_t
    use kinds, only: dp
@@ -14,6 +11,7 @@ module elastic_tangents
    use problem, only: of_drive_compression, of_film, of_velocity
    use radau_nodes, only: node_rows, once_rows, rows, slope_rows, stages, twice_rows, weigh
    use step_elimination, only: factorise, factors_t, most_columns, most_rows, substitute
+   use taylor_step_control, only: sign_of
    implicit none(type, external)
    private
 
@@ -51,7 +49,7 @@ contains
    end function tangents_in_units
 
    !> Carry the displacements of a lane to the end of a step that stands. Where a film has no load there, which no solved step has, the
-   !> step is not to be trusted.
+   !> step is not accepted.
    pure subroutine carry_tangents(contact, lane, trial, block, tangents)
       type(flank_contact_t), intent(in) :: contact
       integer, intent(in) :: lane
@@ -65,9 +63,9 @@ contains
       logical :: found
       integer :: i
 
-      call imbalances(contact, lane, block, trial, right, slopes, found)
+      call residuals(contact, lane, block, trial, right, slopes, found)
       if (.not. found) then
-         block%trust(lane) = 0.0_dp
+         block%accepted(lane) = 0.0_dp
          return
       end if
       call newton_matrix(contact%film%bends, lane, block, trial, slopes, matrix)

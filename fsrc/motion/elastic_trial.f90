@@ -7,8 +7,9 @@ module elastic_trial
    use flank_contact, only: carries_positive_loads, flank_contact_t, load_of_contact
    use kinds, only: dp
    use lane_block, only: lane_block_t
-   use lane_inner, only: lane_inner_t
+   use lane_state, only: lane_inner_t
    use radau_nodes, only: node_rows, once_rows, rows, slope_rows, twice_rows, weigh
+   use taylor_step_control, only: sign_of
    implicit none(type, external)
    private
 
@@ -23,14 +24,11 @@ module elastic_trial
       !> which may fall to nothing
       real(dp) :: gain(rows, 2) = 0.0_dp, counted(2) = 0.0_dp
       !> Compression of flanks that bend by their width, at the start too; how the compression follows the film, as a share of the
-      !> gear's way, and what a load moves its film by
+      !> gear's displacement, and what a load moves its film by
       real(dp) :: width(rows, 2) = 0.0_dp, start_width(2) = 0.0_dp, follows(rows, 2) = 0.0_dp, compliance(rows, 2) = 0.0_dp
       !> A, and of the gear V and Z - Z at the start
-      real(dp) :: acceleration(rows) = 0.0_dp, lienard(rows) = 0.0_dp, way(rows) = 0.0_dp
+      real(dp) :: acceleration(rows) = 0.0_dp, lienard(rows) = 0.0_dp, displacement(rows) = 0.0_dp
    end type trial_t
-
-   !> Signs of the gear's motion in the films
-   real(dp), parameter, public :: sign_of(2) = [1.0_dp, -1.0_dp]
 
    public :: start_films, first_loads, follow_loads
 
@@ -133,10 +131,10 @@ contains
          call weigh(once_rows, trial%acceleration, once)
          call weigh(twice_rows, trial%acceleration, twice)
          trial%lienard = block%lienard(lane, 0) + s*once
-         trial%way = s*(node_rows*block%lienard(lane, 0) + s*twice)
+         trial%displacement = s*(node_rows*block%lienard(lane, 0) + s*twice)
          do flank = 1, trial%flanks
             yielded(:, flank) = kappa*trial%gain(:, flank) - trial%counted(flank)
-            gap(:, flank) = trial%start(flank) + (sign_of(flank)*trial%way + yielded(:, flank))
+            gap(:, flank) = trial%start(flank) + (sign_of(flank)*trial%displacement + yielded(:, flank))
          end do
          if (contact%film%bends) then
             call bend(contact, lane, block, gap, yielded, trial)
@@ -176,8 +174,7 @@ contains
             trial%width(:, flank) = trial%film(:, flank) - (gap(:, flank) - trial%start_width(flank))
             yielded(:, flank) = yielded(:, flank) + (trial%width(:, flank) - trial%start_width(flank))
             trial%follows(:, flank) = by_gap(:, flank)
-            trial%compliance(:, flank) = block%compliance(lane)*(1.0_dp + by_gap(:, flank)) + &
-                                         by_load(:, flank)*(unit/scale)
+            trial%compliance(:, flank) = block%compliance(lane)*(1.0_dp + by_gap(:, flank)) + by_load(:, flank)*(unit/scale)
          end do
       end associate
    end subroutine bend

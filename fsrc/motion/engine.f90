@@ -1,4 +1,4 @@
-!> What an engine is asked, what it is told on the way, and what it hands out. There are two: Newmark's method of the paper
+!> What is requested of an engine, what watches it, and what it hands out. There are two: Newmark's method of the paper
 !> (newmark_engine) and the controlled engine (controlled_engine), which also solves many motions side by side (many_motions).
 module engine
    use clock, only: wall_seconds
@@ -13,7 +13,7 @@ module engine
    implicit none(type, external)
    private
 
-   !> What is asked of an engine.
+   !> What is requested of an engine.
    type, public :: request_t
       !> Relative accuracy of the film, of the controlled engine [-]
       real(dp) :: accuracy = 1.0e-8_dp
@@ -104,14 +104,14 @@ module engine
       real(dp), allocatable :: nodal(:)
    end type checkpoint_t
 
-   !> Where a motion hands its samples, whole periods at a time. The motion never knows what becomes of them.
+   !> Where a motion hands its samples, whole periods at a time. What becomes of them does not change the motion.
    type, abstract, public :: sample_sink_t
    contains
       procedure(take_samples), deferred :: take
       procedure(open_window), deferred :: begin_window
    end type sample_sink_t
 
-   !> Watcher of a motion, told after every period.
+   !> Watcher of a motion, called after every period.
    type, abstract, public :: motion_watcher_t
    contains
       procedure(watch_period), deferred :: period_done
@@ -140,7 +140,7 @@ module engine
          type(error_t), allocatable, intent(out) :: error
       end subroutine take_samples
 
-      !> Told before its first sample where the window begins that the motion is judged by.
+      !> Called before its first sample: where the window begins that the motion is judged by.
       subroutine open_window(self, first_step, samples)
          import :: int64, sample_sink_t
          class(sample_sink_t), intent(inout) :: self
@@ -150,22 +150,22 @@ module engine
          integer, intent(in) :: samples
       end subroutine open_window
 
-      !> Told how far the motion is.
+      !> Called with how far the motion is.
       subroutine watch_period(self, done, all)
          import :: motion_watcher_t
          class(motion_watcher_t), intent(inout) :: self
          !> Periods solved
          integer, intent(in) :: done
-         !> Periods asked for
+         !> Periods requested
          integer, intent(in) :: all
       end subroutine watch_period
    end interface
 
-   public :: start_of, state_of_start, asks_for_same, status_of_stop, last_search_period, reserved_periods
+   public :: start_of, state_of_start, same_request, status_of_stop, last_search_period, reserved_periods
 
 contains
 
-   !> Nobody is told.
+   !> Do nothing.
    subroutine pass_over(self, done, all)
       class(unwatched_t), intent(inout) :: self
       integer, intent(in) :: done
@@ -195,13 +195,13 @@ contains
    end function state_of_start
 
    !> Whether two requests are the same for motions that are solved side by side.
-   elemental logical function asks_for_same(one, other)
+   elemental logical function same_request(one, other)
       type(request_t), intent(in) :: one
       type(request_t), intent(in) :: other
 
-      asks_for_same = one%periods == other%periods .and. one%sampled_periods == other%sampled_periods .and. &
+      same_request = one%periods == other%periods .and. one%sampled_periods == other%sampled_periods .and. &
                       .not. abs(one%accuracy - other%accuracy) > 0.0_dp
-   end function asks_for_same
+   end function same_request
 
    !> Last period of a run until steady after which it may be found that the motion repeats: the longest orbit and
    !> the window have to follow.

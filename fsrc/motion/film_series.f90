@@ -14,13 +14,11 @@ module film_series
    use load_pieces, only: exact_load, load_limit, published_load
    use problem, only: has_elastic_teeth, has_two_flanks, problem_t
    use reynolds_piezo_expansion, only: expand_reynolds_piezo
-   use reynolds_piezo_under_load, only: expand_under_load, film_throughout
    use taylor_iso_viscous, only: iso_viscous_series
    use taylor_piezo_viscous, only: piezo_viscous_series, reject_unresolved_growth
-   use taylor_reynolds_piezo, only: reynolds_piezo_series
+   use taylor_reynolds_piezo, only: expand_under_load, film_throughout, reynolds_piezo_series
    use taylor_rupture, only: equation_rounding, reject_large_defect, rupture_order, rupture_series
-   use taylor_springs, only: iso_viscous_springs, piezo_viscous_springs, shortest_rest
-   use taylor_step_control, only: film_weight, order, rounding
+   use taylor_step_control, only: film_weight, order, rounding, unfollowable_rate
    implicit none(type, external)
    private
 
@@ -50,10 +48,7 @@ module film_series
       real(dp) :: best_accuracy = 0.0_dp
    end type film_series_t
 
-   !> Damping rate that no step follows [1/periods]
-   real(dp), parameter :: unfollowable_rate = 1.0e30_dp
-
-   public :: series_of, has_series, set_coefficients, expand_motion, expand_springs, check_ends, check_springs
+   public :: series_of, has_series, set_coefficients, expand_motion, check_ends, check_springs
 
 contains
 
@@ -89,7 +84,7 @@ contains
    !> Whether a problem has a Taylor series that is good enough.
    elemental logical function has_series(problem, accuracy)
       type(problem_t), intent(in) :: problem
-      !> Relative accuracy of the film asked for [-]
+      !> Relative accuracy of the film that is requested [-]
       real(dp), intent(in) :: accuracy
       type(film_series_t) :: series
 
@@ -113,8 +108,7 @@ contains
             block%damping(lane) = 2.0_dp*pi*film%squeeze/sqrt(film_scale)*problem%frequency/force_scale
             ! Lienard's form, which elastic teeth do not take.
             if (.not. has_elastic_teeth(problem)) block%slip(lane) = block%damping(lane)
-            if (.not. carried_on) &
-               block%lienard(lane, 0) = block%lienard(lane, 0) - slip_velocity(block%film(lane, 0), lane, block)
+            if (.not. carried_on) block%lienard(lane, 0) = block%lienard(lane, 0) - slip_velocity(block%film(lane, 0), lane, block)
          case (kernel_solved_fast)
             block%strength(lane) = film%rolling/film_scale/force_scale
             block%damping(lane) = film%squeeze_rate*velocity_scale/sqrt(film_scale)
@@ -131,82 +125,78 @@ contains
       end associate
    end subroutine set_coefficients
 
-   !> Series of film and Lienard variable of rigid teeth about the states of a block. A law without one has a damping rate that no step follows.
+   !> Series about the states of a block: film and Lienard variable, of elastic teeth both films and compressions too. A law without
+   !> one has a damping rate that no step follows.
    pure subroutine expand_motion(series, block)
       type(film_series_t), intent(in) :: series
       type(lane_block_t), intent(inout) :: block
       real(dp) :: force(lanes, order)
 
       call force_derivatives(series%last_order, block%oscillation, force)
+      if (series%springs) call expand_films(series, block)
       select case (series%kernel)
       case (kernel_piezo)
-         call piezo_viscous_series(series%two_flanks, force, block)
+         call piezo_viscous_series(series%springs, series%two_flanks, force, block)
       case (kernel_half_pi)
-         call iso_viscous_series(series%two_flanks, force, block)
+         call iso_viscous_series(series%springs, series%two_flanks, force, block)
       case (kernel_reynolds_piezo)
          call reynolds_piezo_series(series%springs, series%two_flanks, force, block)
       case (kernel_solved_fast, kernel_reynolds_iso)
          call rupture_series(series%pieces, series%springs, series%two_flanks, force, block)
       case default
          block%film(:, 1:) = 0.0_dp
+         block%films(:, 1:, :) = 0.0_dp
          block%lienard(:, 1:) = 0.0_dp
+         block%compression(:, :, 1:) = 0.0_dp
          block%damping_rate = unfollowable_rate
       end select
+      if (.not. series%springs) return
+      block%film(:, 1:series%last_order) = block%films(:, 1:series%last_order, 1)
+      ! The sums over all orders take no more than there are.
+      block%film(:, series%last_order + 1:) = 0.0_dp
+      block%lienard(:, series%last_order + 1:) = 0.0_dp
    end subroutine expand_motion
 
-   !> Series of films, gear and compressions of elastic teeth. The film of the coast flank is told apart: it is what backlash, drive
-   !> film and springs leave.
-   pure subroutine expand_springs(series, block)
+   !> Films of elastic teeth where a step begins: that of the coast flank is what backlash, drive film and springs leave. Films with
+   !> rupture are expanded under the loads of their springs.
+   pure subroutine expand_films(series, block)
       type(film_series_t), intent(in) :: series
       type(lane_block_t), intent(inout) :: block
-      real(dp) :: force(lanes, order)
-      integer :: flanks, flank
+      integer :: flank
 
-      call force_derivatives(series%last_order, block%oscillation, force)
-      flanks = merge(2, 1, series%two_flanks)
       block%films(:, 0, 1) = block%film(:, 0)
       if (series%two_flanks) then
          block%films(:, 0, 2) = block%backlash - block%film(:, 0) + (block%compression(:, 1, 0) + block%compression(:, 2, 0))
          ! A lane that rests has no backlash.
          block%films(:, 0, 2) = merge(block%films(:, 0, 2), 1.0_dp, block%backlash < huge(1.0_dp))
       end if
+      if (.not. series%checked_at_end) return
       block%damping_rate = 0.0_dp
-      select case (series%kernel)
-      case (kernel_half_pi)
-         call iso_viscous_springs(flanks, block%strength, block%damping, block%compliance, block%static_load, force, block%films, &
-                                  block%lienard, block%compression)
-      case (kernel_piezo)
-         call piezo_viscous_springs(flanks, block%strength, block%damping, block%compliance, block%static_load, force, &
-                                    block%films, block%lienard, block%compression)
-         block%damping_rate = merge(0.0_dp, unfollowable_rate, block%damping*minval(block%compression(:, :flanks, 0), dim=2) &
-                                    > shortest_rest)
-      case (kernel_solved_fast, kernel_reynolds_iso)
-         do flank = 1, flanks
-            call expand_squeeze(series%pieces, &
-                                load_group(series, block%films(:, 0, flank), block%compression(:, flank, 0), block), &
-                                block%squeeze(flank))
-            block%damping_rate = merge(block%damping_rate, unfollowable_rate, block%squeeze(flank)%inside > 0.0_dp)
-         end do
-         call rupture_series(series%pieces, series%springs, series%two_flanks, force, block)
-      case (kernel_reynolds_piezo)
-         do flank = 1, flanks
-            call expand_under_load(block%films(:, 0, flank), &
-                                   load_group(series, block%films(:, 0, flank), block%compression(:, flank, 0), block), &
-                                   (block%piezo_expansion(flank)%lienard), series%share*block%accuracy, block%damping, &
-                                   block%pressing, block%squeeze(flank), block%piezo_expansion(flank))
-            block%damping_rate = merge(block%damping_rate, unfollowable_rate, block%squeeze(flank)%inside > 0.0_dp)
-         end do
-         call reynolds_piezo_series(series%springs, series%two_flanks, force, block)
-      case default
-         block%films(:, 1:, :) = 0.0_dp
-         block%lienard(:, 1:) = 0.0_dp
-         block%compression(:, :, 1:) = 0.0_dp
-      end select
-      block%film(:, 1:series%last_order) = block%films(:, 1:series%last_order, 1)
-      ! The sums over all orders take no more than there are.
-      block%film(:, series%last_order + 1:) = 0.0_dp
-      block%lienard(:, series%last_order + 1:) = 0.0_dp
-   end subroutine expand_springs
+      do flank = 1, merge(2, 1, series%two_flanks)
+         call expand_under_spring(series, flank, block%films(:, 0, flank), &
+                                  load_group(series, block%films(:, 0, flank), block%compression(:, flank, 0), block), &
+                                  (block%piezo_expansion(flank)%lienard), block)
+         block%damping_rate = merge(block%damping_rate, unfollowable_rate, block%squeeze(flank)%inside > 0.0_dp)
+      end do
+   end subroutine expand_films
+
+   !> Expand a film with rupture under the load of its spring.
+   pure subroutine expand_under_spring(series, flank, film, group, near, block)
+      type(film_series_t), intent(in) :: series
+      integer, intent(in) :: flank
+      !> Film, its load group, and what its velocity is likely to be [-]
+      real(dp), intent(in) :: film(lanes)
+      real(dp), intent(in) :: group(lanes)
+      real(dp), intent(in) :: near(lanes)
+      type(lane_block_t), intent(inout) :: block
+
+      if (series%kernel == kernel_reynolds_piezo) then
+         call expand_under_load(film, group, near, series%share*block%accuracy, block%damping, block%pressing, &
+                                block%squeeze(flank), block%piezo_expansion(flank))
+      else
+         call expand_squeeze(series%pieces, group, block%squeeze(flank))
+      end if
+   end subroutine expand_under_spring
 
    !> Load group W H/a of films with rupture under their springs, less its limit on separation [-].
    pure function load_group(series, film, compression, block) result(group)
@@ -242,23 +232,22 @@ contains
       do flank = 1, merge(2, 1, series%two_flanks)
          start = load_group(series, block%films(:, 0, flank), block%compression(:, flank, 0), block)
          place = load_group(series, next_films(:, flank), block%next_compression(:, flank), block)
-         place = merge(place, start, block%trust > 0.0_dp)
+         place = merge(place, start, block%accepted > 0.0_dp)
          rise = real(series%last_order, dp)*block%films(:, series%last_order, flank)
          do k = series%last_order - 1, 1, -1
             rise = rise*block%step + real(k, dp)*block%films(:, k, flank)
          end do
+         if (series%kernel == kernel_reynolds_piezo) &
+            block%accepted = block%accepted*film_throughout(block%piezo_expansion(flank)%sigma_series, block%step)
+         call expand_under_spring(series, flank, merge(next_films(:, flank), block%films(:, 0, flank), block%accepted > 0.0_dp), &
+                                  place, rise, block)
          ! What rounding of the load may move the velocity by
          if (series%kernel == kernel_reynolds_piezo) then
-            block%trust = block%trust*film_throughout(block%piezo_expansion(flank)%sigma_series, block%step)
-            call expand_under_load(merge(next_films(:, flank), block%films(:, 0, flank), block%trust > 0.0_dp), place, rise, &
-                                   series%share*block%accuracy, block%damping, block%pressing, block%squeeze(flank), &
-                                   block%piezo_expansion(flank))
             associate (there => block%piezo_expansion(flank))
                velocity = there%lienard
                disturbance = (abs(there%group) + abs(place/there%load_slope))*there%film*there%root/block%damping
             end associate
          else
-            call expand_squeeze(series%pieces, place, block%squeeze(flank))
             associate (there => block%squeeze(flank))
                velocity = sqrt(max(next_films(:, flank), 0.0_dp))/block%damping
                disturbance = velocity*(abs(there%terms(:, 0)) + abs(there%terms(:, 1))*there%inverse_unit* &
@@ -271,7 +260,7 @@ contains
             defect = abs(velocity(l) - rise(l)) - equation_rounding*disturbance(l)
             granted = (real(series%last_order + 1, dp)*series%share) &
                *max(block%accuracy(l)*film_weight(thinner(l)), rounding*next_films(l, flank))
-            block%trust(l) = block%trust(l)*block%squeeze(flank)%inside(l)*merge(1.0_dp, 0.0_dp, defect <= granted)
+            block%accepted(l) = block%accepted(l)*block%squeeze(flank)%inside(l)*merge(1.0_dp, 0.0_dp, defect <= granted)
          end do
       end do
    end subroutine check_springs
@@ -285,18 +274,15 @@ contains
 
       select case (series%kernel)
       case (kernel_half_pi)
-         ! Its load is smooth: the last terms tell the error.
+         ! Its load is smooth: the last terms show the error.
       case (kernel_piezo)
-         call reject_unresolved_growth(block%strength, block%damping, block%force, block%accuracy, block%film, block%lienard, &
-                                       block%next_film, block%next_lienard, block%trust)
-         if (series%two_flanks) &
-            call reject_unresolved_growth(block%strength, block%damping, block%force, block%accuracy, &
-                                          block%backlash - block%film(:, 0), -block%lienard(:, 0), &
-                                          block%backlash - block%next_film, -block%next_lienard, block%trust)
+         call reject_unresolved_growth(block%film(:, 0), block%lienard(:, 0), block%next_film, block%next_lienard, block)
+         if (series%two_flanks) call reject_unresolved_growth(block%backlash - block%film(:, 0), -block%lienard(:, 0), &
+                                                              block%backlash - block%next_film, -block%next_lienard, block)
       case (kernel_solved_fast, kernel_reynolds_iso, kernel_reynolds_piezo)
          call check_forces(series, rise, block)
       case default
-         block%trust = 0.0_dp
+         block%accepted = 0.0_dp
       end select
    end subroutine check_ends
 
@@ -315,17 +301,17 @@ contains
       rate_of_damping = 0.0_dp
       phase = block%phase + block%step
       call turn_to(phase, circle)
-      film = merge(block%next_film, block%film(:, 0), block%trust > 0.0_dp)
-      lienard = merge(block%next_lienard, block%lienard(:, 0), block%trust > 0.0_dp)
+      film = merge(block%next_film, block%film(:, 0), block%accepted > 0.0_dp)
+      lienard = merge(block%next_lienard, block%lienard(:, 0), block%accepted > 0.0_dp)
       thinner = film
       call load_at_end(series, 1, film, lienard, block, carried, largest, rate_of_damping)
       if (series%two_flanks) then
          thinner = min(film, block%backlash - film)
          call load_at_end(series, 2, block%backlash - film, -lienard, block, carried, largest, rate_of_damping)
       end if
-      call reject_large_defect(series%share, block%static_load + force_values(block%oscillation, circle), block%force, &
-                               block%accuracy, carried, largest, rate_of_damping, thinner, lienard, rise, block%trust)
-      call move_forces(circle, block%trust, block%oscillation)
+      call reject_large_defect(series%share, block%static_load + force_values(block%oscillation, circle), carried, largest, &
+                               rate_of_damping, thinner, lienard, rise, block)
+      call move_forces(circle, block%accepted, block%oscillation)
    end subroutine check_forces
 
    !> Expand the load of one film at the ends of steps, and add it to what is carried.
@@ -345,7 +331,7 @@ contains
       if (series%kernel == kernel_reynolds_piezo) then
          associate (there => block%piezo_expansion(flank))
             call expand_reynolds_piezo(film, lienard, block%damping, block%pressing, there)
-            block%trust = block%trust*there%inside
+            block%accepted = block%accepted*there%inside
             call add_load(there%inverse_film, there%root, there%terms(:, 0), there%load_slope, carried, largest, rate_of_damping)
          end associate
       else

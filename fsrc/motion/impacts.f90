@@ -1,12 +1,12 @@
-!> Impacts on a flank, counted while the load W of its film is told from the beginning of a window to its end.
+!> Impacts on a flank, counted while the points of the load W of its film come in from the beginning of a window to its end.
 !>
 !> An impact is a maximum of W above a limit, which lies above F_max, the largest force. Two maxima are one impact unless W falls
 !> below half of the smaller one in between. The interval of an impact is the stretch about its largest maximum in which
 !> W > F_max; two impacts in one stretch part where W is lowest between them. Where W > F_max all along there is no impact. Where
 !> its interval begins the gear approaches the flank at some velocity, and the integral of W over the interval is the impulse.
 !>
-!> A window is taken as cyclic, since a motion that repeats goes on where it began: what is told before W is low for the first time
-!> is kept, and told again behind the end.
+!> A window is taken as cyclic, since a motion that repeats goes on where it began: the points before W is low for the first
+!> time are kept, and come once more behind the end.
 module impacts
    use kinds, only: dp
    implicit none(type, external)
@@ -56,10 +56,10 @@ module impacts
    type, extends(impact_count_t), public :: impact_watch_t
       !> F_max, and the load above which a maximum is an impact [N]
       real(dp) :: level = huge(1.0_dp), limit = huge(1.0_dp)
-      !> The point told last, if there is one, and whether W > F_max there
+      !> The last point, if there is one, and whether W > F_max there
       type(load_point_t) :: last = load_point_t()
       logical :: started = .false., above = .false.
-      !> What was told before W was low for the first time
+      !> The points before W was low for the first time
       logical, private :: settled = .false.
       integer, private :: head_size = 0
       type(load_point_t), allocatable, private :: head(:)
@@ -70,12 +70,12 @@ module impacts
       type(load_point_t), private :: its_begin = load_point_t(), begin = load_point_t(), valley = load_point_t()
    end type impact_watch_t
 
-   public :: tell_load, impacts_of_watch
+   public :: take_point, impacts_of_watch
 
 contains
 
    !> Take the next point.
-   pure subroutine tell_load(point, watch)
+   pure subroutine take_point(point, watch)
       type(load_point_t), intent(in) :: point
       type(impact_watch_t), intent(inout) :: watch
 
@@ -88,11 +88,11 @@ contains
          call keep(point, watch)
          watch%settled = point%kind == point_low
       end if
-   end subroutine tell_load
+   end subroutine take_point
 
    !> The impacts of a window.
    pure function impacts_of_watch(watch, periods) result(impacts)
-      !> Told of the whole window
+      !> With the points of the whole window
       type(impact_watch_t), intent(in) :: watch
       !> Its length [periods]
       real(dp), intent(in) :: periods
@@ -103,7 +103,7 @@ contains
 
       if (.not. watch%started) return
       closed = watch
-      ! Without a low point the window is told from its lowest point on.
+      ! Without a low point the window is followed from its lowest point on.
       first = 1
       if (.not. watch%settled) then
          ! A load that never falls to F_max has no interval that begins: a gear held between both flanks has no impacts.

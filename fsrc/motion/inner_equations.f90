@@ -3,14 +3,15 @@
 !> of the steps that call them, which films without a state take as well.
 module inner_equations
    use collocation_basis, only: can_extrapolate, highest_terms, last_share
-   use elastic_trial, only: sign_of, trial_t
+   use elastic_trial, only: trial_t
    use flank_contact, only: flank_contact_t
    use inner_step, only: eliminate_state, follow_film, inner_step_t, step_response_t
    use kinds, only: dp
    use lane_block, only: lane_block_t
-   use lane_inner, only: evaluate_inner, lane_inner_t
+   use lane_state, only: evaluate_inner, lane_inner_t
    use radau_nodes, only: meet_start, node, once, power, powers_of_place, rows, slope, stages, twice
    use step_elimination, only: most_columns, most_rows
+   use taylor_step_control, only: sign_of
    implicit none(type, external)
    private
 
@@ -20,7 +21,7 @@ module inner_equations
       type(step_response_t) :: responses(2)
    end type trial_inner_t
 
-   public :: first_states, inner_imbalances, inner_matrix, follow_films, error_of_states, series_of_states
+   public :: first_states, inner_residuals, inner_matrix, follow_films, error_of_states, series_of_states
 
 contains
 
@@ -49,7 +50,7 @@ contains
    end subroutine first_states
 
    !> By how much the laws of films with a state miss at the nodes, whose loads follow from the films at all nodes.
-   pure subroutine inner_imbalances(contact, lane, block, trial, inner_trial, right, found)
+   pure subroutine inner_residuals(contact, lane, block, trial, inner_trial, right, found)
       type(flank_contact_t), intent(in) :: contact
       integer, intent(in) :: lane
       type(lane_block_t), intent(inout) :: block
@@ -73,7 +74,7 @@ contains
                                                                      trial%load(:stages, flank)
          end associate
       end do
-   end subroutine inner_imbalances
+   end subroutine inner_residuals
 
    !> Newton's matrix of films with a state.
    pure subroutine inner_matrix(lane, block, flanks, responses, matrix)

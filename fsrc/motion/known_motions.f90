@@ -1,8 +1,8 @@
 !> Motions that are known of a problem: periodic ones, and the irregular one. A motion from another start that has come to one of
-!> them need not be followed any further.
+!> them need not be followed any further. Which of them are the same: one of several periods may be met in any of them.
 module known_motions
-   use irregular_states, only: are_of_one_motion, compared_periods
    use kinds, only: dp
+   use motion_start, only: characteristic_velocity, gap_of_starts
    use problem, only: moving_numbers, of_velocity, problem_t
    implicit none(type, external)
    private
@@ -23,7 +23,33 @@ module known_motions
       real(dp) :: near_velocity = 0.0_dp
    end type known_motions_t
 
-   public :: reached_motion, joined_irregular, are_near, distance_of
+   !> A motion that repeats.
+   type, public :: settled_motion_t
+      !> Periods of the force after which it repeats; 0: it does not
+      integer :: period = 0
+      !> Numbers of its state, period: at the start of each period of the force
+      real(dp), allocatable :: states(:, :)
+      !> [m/s2]
+      real(dp) :: acceleration_rms = 0.0_dp
+      !> Whether that is of a window which is no multiple of the period
+      logical :: rms_is_rough = .false.
+      !> Films and velocities at the ends of many periods of an irregular one: number, period; not allocated: they are not known
+      real(dp), allocatable :: path(:, :)
+   end type settled_motion_t
+
+   !> Share of the gap by which films, and of the characteristic velocity by which velocities of one motion may differ [-].
+   real(dp), parameter, public :: same_state = 0.01_dp
+   !> Relative difference of the acceleration rms up to which motions are the same, and where one of a part of a period is compared [-].
+   real(dp), parameter, public :: same_rms = 0.05_dp, rough_rms = 0.25_dp
+
+   !> Distance that one of a hundred pairs of samples of one distribution exceeds, in units of sqrt(1/n + 1/m).
+   real(dp), parameter :: rare_distance = 1.63_dp
+
+   !> Periods after which a start that does not repeat is held against an irregular motion that is known, and by how many of the last
+   !> ones.
+   integer, parameter, public :: compared_after = 32, compared_periods = 24
+
+   public :: reached_motion, joined_irregular, are_near, are_of_one_motion, distance_of, same_motion, known_of, near_states
 
 contains
 
@@ -69,6 +95,31 @@ contains
       joined = 0
    end function joined_irregular
 
+   !> Whether the states at the ends of periods of two motions that do not repeat may be those of one: by the distance of Kolmogorov
+   !> and Smirnov between the distributions of their films and of their velocities.
+   pure logical function are_of_one_motion(one, other)
+      !> Number of a state, such as film and velocity; period
+      real(dp), intent(in) :: one(:, :)
+      real(dp), intent(in) :: other(:, :)
+      real(dp) :: limit
+      integer :: i
+
+      limit = rare_distance*sqrt(1.0_dp/real(size(one, 2), dp) + 1.0_dp/real(size(other, 2), dp))
+      are_of_one_motion = all([(largest_distance(one(i, :), other(i, :)) <= limit, i=1, size(one, 1))])
+   end function are_of_one_motion
+
+   !> Largest difference of the shares of two samples that are not above a value [-].
+   pure real(dp) function largest_distance(one, other) result(distance)
+      real(dp), intent(in) :: one(:)
+      real(dp), intent(in) :: other(:)
+      real(dp) :: values(size(one) + size(other))
+      integer :: i
+
+      values = [one, other]
+      distance = maxval([(abs(real(count(one <= values(i)), dp)/real(size(one), dp) - &
+                              real(count(other <= values(i)), dp)/real(size(other), dp)), i=1, size(values))])
+   end function largest_distance
+
    !> Whether two states count as one by how gear and teeth stand and move; states of films follow these.
    pure logical function are_near(problem, known, one, other)
       !> What moves
@@ -108,5 +159,57 @@ contains
       near = known%near_film
       near(of_velocity) = known%near_velocity
    end function near_of
+
+   !> Whether two motions of a problem are the same: from some period on they have the same states, and they shake as much. One may
+   !> have been seen to repeat after a part of the period of the other: next to a doubling of the period its states differ by less
+   !> than those that count as one, and so each of them from one of the other by at most twice that.
+   pure logical function same_motion(problem, one, other) result(same)
+      type(problem_t), intent(in) :: problem
+      type(settled_motion_t), intent(in) :: one
+      type(settled_motion_t), intent(in) :: other
+      type(known_motions_t) :: measure
+      real(dp) :: limit
+      integer :: longer, shift, i
+
+      same = .false.
+      if (one%period == 0 .or. other%period == 0) return
+      longer = max(one%period, other%period)
+      if (modulo(longer, min(one%period, other%period)) /= 0) return
+      limit = merge(rough_rms, same_rms, one%rms_is_rough .or. other%rms_is_rough)
+      if (abs(one%acceleration_rms - other%acceleration_rms) > limit*max(one%acceleration_rms, other%acceleration_rms)) return
+      measure = near_states(problem)
+      if (one%period /= other%period) then
+         measure%near_film = 2.0_dp*measure%near_film
+         measure%near_velocity = 2.0_dp*measure%near_velocity
+      end if
+      do shift = 0, longer - 1
+         same = all([(are_near(problem, measure, one%states(:, modulo(i - 1, one%period) + 1), &
+                               other%states(:, modulo(i - 1 + shift, other%period) + 1)), i=1, longer)])
+         if (same) return
+      end do
+   end function same_motion
+
+   !> What counts as near of a problem, and the motions that are known of it, each at its place.
+   pure type(known_motions_t) function known_of(problem, settled) result(known)
+      type(problem_t), intent(in) :: problem
+      !> Those that do not repeat are reached by no state, irregular ones by many
+      type(settled_motion_t), intent(in) :: settled(:)
+      integer :: i
+
+      known = near_states(problem)
+      allocate (known%motions(size(settled)))
+      do i = 1, size(settled)
+         known%motions(i)%states = settled(i)%states(:, :settled(i)%period)
+         if (allocated(settled(i)%path)) known%motions(i)%path = settled(i)%path
+      end do
+   end function known_of
+
+   !> What counts as near of a problem.
+   pure type(known_motions_t) function near_states(problem) result(measure)
+      type(problem_t), intent(in) :: problem
+
+      measure%near_film = same_state*gap_of_starts(problem)
+      measure%near_velocity = same_state*characteristic_velocity(problem)
+   end function near_states
 
 end module known_motions

@@ -1,12 +1,11 @@
 !> One step of all lanes of a block by Taylor series, and the bookkeeping of a step by any method.
 module lane_advance
-   use film_series, only: check_ends, check_springs, expand_motion, expand_springs, film_series_t
+   use film_series, only: check_ends, check_springs, expand_motion, film_series_t
    use kinds, only: dp
    use lane_block, only: lane_block_t, lost_film
    use lane_force, only: turn_to
    use lane_functions, only: lanes
-   use taylor_rupture, only: evaluate_rupture_series
-   use taylor_step_control, only: evaluate_series, lane_steps, order
+   use taylor_step_control, only: evaluate_series, evaluate_slope, lane_steps, order
    implicit none(type, external)
    private
 
@@ -26,6 +25,10 @@ contains
       type(film_series_t), intent(in) :: series
       type(lane_block_t), intent(inout) :: block
 
+      ! Forces of steps that are checked at their ends stand there already.
+      if (series%springs .or. .not. series%checked_at_end) call turn_to(block%phase, block%oscillation%phase)
+      block%remaining = 1.0_dp - block%phase
+      call expand_motion(series, block)
       if (series%springs) then
          call take_springs_step(series, block)
       else
@@ -33,29 +36,23 @@ contains
       end if
    end subroutine take_series_step
 
-   !> Series and steps of all lanes, and the states they lead to. Steps in which the film changes
-   !> by some powers of ten are rejected, and so are series about a point of extreme damping. Conditions are numbers, 0 or
-   !> 1, and their products: without branch and integer the loop runs in full registers.
+   !> Steps of all lanes, and the states they lead to. Steps in which the film changes by some powers of ten are rejected, and so are
+   !> series about a point of extreme damping. Conditions are numbers, 0 or 1, and their products: without branch and integer the
+   !> loop runs in full registers.
    pure subroutine take_rigid_step(series, block)
       type(film_series_t), intent(in) :: series
       type(lane_block_t), intent(inout) :: block
       real(dp) :: next_rise(lanes), thinner(lanes)
       integer :: l
 
-      if (.not. series%checked_at_end) call turn_to(block%phase, block%oscillation%phase)
-      block%remaining = 1.0_dp - block%phase
-      call expand_motion(series, block)
       thinner = min(block%film(:, 0), block%backlash - block%film(:, 0))
       call lane_steps(series%last_order, series%share, block%accuracy, block%force, thinner, block%film, block%lienard, &
                       block%damping_rate, block%remaining, block%limit, block%step)
-      if (series%checked_at_end) then
-         call evaluate_rupture_series(block%film, block%lienard, block%step, block%next_film, block%next_lienard, next_rise)
-      else
-         call evaluate_series(block%film, block%lienard, block%step, block%next_film, block%next_lienard)
-      end if
+      call evaluate_series(block%film, block%lienard, block%step, block%next_film, block%next_lienard)
+      if (series%checked_at_end) call evaluate_slope(block%lienard, block%step, next_rise)
       !$omp simd
       do l = 1, lanes
-         block%trust(l) = merge(1.0_dp, 0.0_dp, block%next_film(l) > smallest_film_ratio*block%film(l, 0)) &
+         block%accepted(l) = merge(1.0_dp, 0.0_dp, block%next_film(l) > smallest_film_ratio*block%film(l, 0)) &
             *merge(1.0_dp, 0.0_dp, block%next_film(l) < largest_film_ratio*block%film(l, 0)) &
             *merge(1.0_dp, 0.0_dp, block%backlash(l) - block%next_film(l) &
                    > smallest_film_ratio*(block%backlash(l) - block%film(l, 0))) &
@@ -73,9 +70,6 @@ contains
       real(dp) :: largest(lanes, 0:order), next_films(lanes, 2), changed(lanes, 2), undamped(lanes)
       integer :: flanks, flank, k, l
 
-      call turn_to(block%phase, block%oscillation%phase)
-      block%remaining = 1.0_dp - block%phase
-      call expand_springs(series, block)
       flanks = merge(2, 1, series%two_flanks)
       largest(:, 0) = block%films(:, 0, 1)
       if (flanks == 2) largest(:, 0) = min(block%films(:, 0, 1), block%films(:, 0, 2))
@@ -106,7 +100,7 @@ contains
          ! A lane that rests has no backlash.
          next_films(:, 2) = merge(next_films(:, 2), block%films(:, 0, 2), block%backlash < huge(1.0_dp))
       end if
-      block%trust = 1.0_dp
+      block%accepted = 1.0_dp
       do flank = 1, flanks
          changed(:, 1) = next_films(:, flank)/block%films(:, 0, flank)
          changed(:, 2) = 1.0_dp
@@ -114,12 +108,12 @@ contains
          do k = 1, 2
             !$omp simd
             do l = 1, lanes
-               block%trust(l) = block%trust(l)*merge(1.0_dp, 0.0_dp, changed(l, k) > smallest_film_ratio) &
+               block%accepted(l) = block%accepted(l)*merge(1.0_dp, 0.0_dp, changed(l, k) > smallest_film_ratio) &
                   *merge(1.0_dp, 0.0_dp, changed(l, k) < largest_film_ratio)
             end do
          end do
       end do
-      block%trust = block%trust*merge(1.0_dp, 0.0_dp, abs(block%next_lienard) < huge(1.0_dp)) &
+      block%accepted = block%accepted*merge(1.0_dp, 0.0_dp, abs(block%next_lienard) < huge(1.0_dp)) &
          *merge(1.0_dp, 0.0_dp, block%damping_rate < largest_series_rate)
       call check_springs(series, next_films, block)
    end subroutine take_springs_step
@@ -139,11 +133,11 @@ contains
       quiet = 0.0_dp
       !$omp simd private(calm) reduction(+: quiet)
       do l = 1, lanes
-         block%film(l, 0) = merge(block%next_film(l), block%film(l, 0), block%trust(l) > 0.0_dp)
-         block%lienard(l, 0) = merge(block%next_lienard(l), block%lienard(l, 0), block%trust(l) > 0.0_dp)
-         block%limit(l) = merge(1.0_dp, 0.25_dp*block%step(l), block%trust(l) > 0.0_dp)
-         block%remaining(l) = merge(block%remaining(l) - block%step(l), 1.0_dp, block%trust(l) > 0.0_dp)
-         block%phase(l) = block%phase(l) + block%trust(l)*block%step(l)
+         block%film(l, 0) = merge(block%next_film(l), block%film(l, 0), block%accepted(l) > 0.0_dp)
+         block%lienard(l, 0) = merge(block%next_lienard(l), block%lienard(l, 0), block%accepted(l) > 0.0_dp)
+         block%limit(l) = merge(1.0_dp, 0.25_dp*block%step(l), block%accepted(l) > 0.0_dp)
+         block%remaining(l) = merge(block%remaining(l) - block%step(l), 1.0_dp, block%accepted(l) > 0.0_dp)
+         block%phase(l) = block%phase(l) + block%accepted(l)*block%step(l)
          block%period_steps(l) = block%period_steps(l) + 1.0_dp
          calm = merge(1.0_dp, 0.0_dp, block%remaining(l) > 0.0_dp) &
             *merge(1.0_dp, 0.0_dp, block%limit(l) > shortest_step) &

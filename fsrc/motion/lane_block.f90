@@ -1,9 +1,8 @@
 !> A block of lanes, one motion a lane: their scaled coefficients and states.
 !>
-!> Time is counted in periods of the force, x = f_exc t, within a period from 0 to 1, so the phase is as exact
-!> after hundreds of periods as in the first. The film is scaled by the power of two next to the reference
-!> film: scaling costs no digit, and a motion carried on from the state of its ending goes on as if never
-!> stopped.
+!> Time is counted in periods of the force, x = f_exc t, within a period from 0 to 1, so the phase is as exact after hundreds of
+!> periods as in the first. The film is scaled by the power of two next to the reference film: scaling costs no digit, and a motion
+!> carried on from the state of its ending goes on as if never stopped.
 module lane_block
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
@@ -52,8 +51,8 @@ module lane_block
       real(dp) :: film(lanes, 0:order), lienard(lanes, 0:order)
       !> Phase of the state, next step, what is left of the period, longest step allowed [periods]
       real(dp) :: phase(lanes), step(lanes), remaining(lanes), limit(lanes)
-      !> State that the step leads to, and whether it is to be trusted (1) or not (0)
-      real(dp) :: next_film(lanes), next_lienard(lanes), trust(lanes)
+      !> State that the step leads to, and whether the step is accepted (1) or not (0)
+      real(dp) :: next_film(lanes), next_lienard(lanes), accepted(lanes)
       !> H' = V + slip (1/sqrt(H) - 1/sqrt(B - H)): 2 b in Lienard's form, 0 where V is H' itself
       real(dp) :: slip(lanes)
       !> Damping rate at the state [1/periods]
@@ -94,7 +93,7 @@ contains
    !> before they are forgotten.
    elemental real(dp) function lane_accuracy(problem, accuracy)
       type(problem_t), intent(in) :: problem
-      !> Relative accuracy of the film asked for [-]
+      !> Relative accuracy of the film that is requested [-]
       real(dp), intent(in) :: accuracy
       !> No step is better than rounding
       real(dp), parameter :: best_accuracy = 1.0e-13_dp
@@ -138,7 +137,7 @@ contains
    subroutine place_block(room, block)
       !> Memory of the block
       real(dp), allocatable, target, intent(out) :: room(:)
-      !> The block in it; lives as long as `folder`, which has to be a target
+      !> The block in it; lives as long as `room`, which has to be a target
       type(lane_block_t), pointer, intent(out) :: block
       type(c_ptr) :: place
 
@@ -167,8 +166,7 @@ contains
       force_scale = problem%mass*film_scale*problem%frequency**2
       block%film_scale(lane) = film_scale
       if (has_two_flanks(problem)) block%backlash(lane) = problem%backlash/film_scale
-      if (has_two_flanks(problem) .and. .not. has_elastic_teeth(problem)) &
-         block%widest_film(lane) = block%backlash(lane) - lost_film
+      if (has_two_flanks(problem) .and. .not. has_elastic_teeth(problem)) block%widest_film(lane) = block%backlash(lane) - lost_film
       block%velocity_scale(lane) = film_scale*problem%frequency
       block%force_scale(lane) = force_scale
       block%static_load(lane) = static_load(problem)/force_scale

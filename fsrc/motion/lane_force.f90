@@ -94,16 +94,16 @@ contains
       call lane_cosine_sine(phase, circle%cosine, circle%sine)
    end subroutine turn_to
 
-   !> Take over other phases in the lanes whose step is trusted.
-   pure subroutine move_forces(there, trust, forces)
+   !> Take over other phases in the lanes whose step is accepted.
+   pure subroutine move_forces(there, accepted, forces)
       !> Phases at the ends of the steps
       type(lane_phase_t), intent(in) :: there
-      !> 1 where the step is trusted, else 0
-      real(dp), intent(in) :: trust(lanes)
+      !> 1 where the step is accepted, else 0
+      real(dp), intent(in) :: accepted(lanes)
       type(lane_force_t), intent(inout) :: forces
 
-      forces%phase%cosine = merge(there%cosine, forces%phase%cosine, trust > 0.0_dp)
-      forces%phase%sine = merge(there%sine, forces%phase%sine, trust > 0.0_dp)
+      forces%phase%cosine = merge(there%cosine, forces%phase%cosine, accepted > 0.0_dp)
+      forces%phase%sine = merge(there%sine, forces%phase%sine, accepted > 0.0_dp)
    end subroutine move_forces
 
    !> Values of the part that oscillates at some phases [-].

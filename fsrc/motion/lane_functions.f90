@@ -8,8 +8,7 @@ module lane_functions
    implicit none(type, external)
    private
 
-   !> Scenes in a block. A register holds 8 at most; two registers, interleaved, hide the latency of the
-   !> arithmetic.
+   !> Scenes in a block. A register holds 8 at most; two registers, interleaved, hide the latency of the arithmetic.
    integer, parameter, public :: lanes = 16
    !> Those of one register. Rows of tables are brought side by side for so many, and what needs many numbers a lane takes one
    !> half after the other.
@@ -58,15 +57,13 @@ contains
       end do
    end subroutine lane_exponential
 
-   !> Logarithm to the base 2 in units of 2^-20, plus 1023*2^20: the upper half of the bits of a number.
-   !> Straight between powers of two, so it is short of the logarithm by up to 0.086 octaves there. Zero gives
-   !> 0.
+   !> Logarithm to the base 2 in units of 2^-20, plus 1023*2^20: the upper half of the bits of a number. Straight between powers of
+   !> two, so it is short of the logarithm by up to 0.086 octaves there. Zero gives 0.
    elemental real(dp) function coarse_log(x)
       !> Not negative [-]
       real(dp), intent(in) :: x
 
-      coarse_log = transfer(ior(shiftr(transfer(x, 1_int64), 32), transfer(integer_base, 1_int64)), 1.0_dp) &
-         - integer_base
+      coarse_log = transfer(ior(shiftr(transfer(x, 1_int64), 32), transfer(integer_base, 1_int64)), 1.0_dp) - integer_base
    end function coarse_log
 
    !> 2^(x 2^-20), at most 6.2 per cent above: the inverse of `coarse_log` without its 1023*2^20.

@@ -18,10 +18,9 @@ module lane_integration
    use lane_advance, only: advance, largest_series_rate, shortest_step, take_series_step
    use lane_block, only: load_problem, lost_film, place_block, rest_lane, start_period, start_status
    use lane_functions, only: lanes
-   use lane_inner, only: place_inner
    use lane_repetition, only: find_repetition, look_for_known, restore_departure
    use lane_run, only: lane_run_t, lane_watch_t
-   use lane_state, only: place_state, state_of_lane, take_state, thinner_scaled_film, velocity_of_lane
+   use lane_state, only: place_inner, place_state, state_of_lane, take_state, thinner_scaled_film, velocity_of_lane
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
    use problem, only: has_inner_numbers, of_film, problem_t, state_size
    use repetition, only: orbit_watch_t, recurrence_t, start_watch
@@ -40,8 +39,7 @@ module lane_integration
 contains
 
    !> Solve scenes, by Taylor series (all of one film law that has one) or by collocation.
-   subroutine integrate_lanes(by_series, problems, starts, queue, request, states, endings, watches, records, known, &
-                              displacements)
+   subroutine integrate_lanes(by_series, problems, starts, queue, request, states, endings, watches, records, known, displacements)
       !> Taylor series, else collocation
       logical, intent(in) :: by_series
       !> What moves, and where each motion starts
@@ -49,7 +47,7 @@ contains
       type(motion_state_t), intent(in) :: starts(:)
       !> Those of them to be solved, in the order in which lanes take them
       integer, intent(in) :: queue(:)
-      !> What is asked for
+      !> What is requested
       type(request_t), intent(in) :: request
       !> Samples: sample, number of its state, scene
       real(dp), contiguous, intent(inout) :: states(:, :, :)
@@ -57,8 +55,8 @@ contains
       type(ending_t), intent(inout) :: endings(:)
       !> What the watchers of the scenes carried on have seen, kept up
       type(orbit_watch_t), optional, intent(inout) :: watches(:)
-      !> What the steps of the sampled periods tell, scene by scene; what stands in the record of a motion that begins within
-      !> its sampled periods is kept and added to
+      !> Records of the steps of the sampled periods, scene by scene; that of a motion that begins within its sampled periods is
+      !> kept and added to
       type(window_record_t), optional, intent(inout) :: records(:)
       !> Periodic motions that are known, scene by scene
       type(known_motions_t), optional, intent(in) :: known(:)
@@ -70,6 +68,7 @@ contains
       integer :: l, events
 
       call place_block(room, run%block)
+      run%request = request
       run%by_series = by_series
       if (size(queue) > 0) run%series = series_of(problems(queue(1)))
       if (size(queue) > 0) run%own_numbers = has_inner_numbers(problems(queue(1)))
@@ -77,7 +76,7 @@ contains
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
       run%samples%per_period = request%samples_per_period
       do l = 1, lanes
-         call next_scene(l, problems, starts, queue, request, run, endings, watches, records, displacements)
+         call next_scene(l, problems, starts, queue, run, endings, watches, records, displacements)
       end do
       do while (run%active > 0)
          if (must_stop()) exit
@@ -101,7 +100,7 @@ contains
                cycle
             end if
             if (run%block%remaining(l) <= 0.0_dp) then
-               call end_period(l, problems, request, states, run, records, known)
+               call end_period(l, problems, states, run, records, known)
             else if (in_trouble(l, run) .and. run%watches(l)%departure%period > 0) then
                run%watches(l)%ending%count%steps = run%watches(l)%ending%count%steps + nint(run%block%period_steps(l), int64)
                call start_period(l, run%block)
@@ -113,20 +112,18 @@ contains
             if (present(displacements)) displacements(:size(run%watches(l)%state), :, run%watches(l)%scene) = &
                tangents_in_units(run%tangents(l), l, run%block)
             call finish(l, problems, run, endings, watches)
-            call next_scene(l, problems, starts, queue, request, run, endings, watches, records, displacements)
+            call next_scene(l, problems, starts, queue, run, endings, watches, records, displacements)
          end do
       end do
       if (run%active > 0) call interrupt(problems, starts, queue, run, endings, watches)
    end subroutine integrate_lanes
 
    !> Put the next scene that can start into a lane.
-   pure subroutine next_scene(lane, problems, starts, queue, request, run, endings, watches, records, displacements)
-      !> Lane
+   pure subroutine next_scene(lane, problems, starts, queue, run, endings, watches, records, displacements)
       integer, intent(in) :: lane
       type(problem_t), intent(in) :: problems(:)
       type(motion_state_t), intent(in) :: starts(:)
       integer, intent(in) :: queue(:)
-      type(request_t), intent(in) :: request
       type(lane_run_t), intent(inout) :: run
       type(ending_t), intent(inout) :: endings(:)
       type(orbit_watch_t), optional, intent(in) :: watches(:)
@@ -141,8 +138,8 @@ contains
          scene = queue(run%taken)
          status = start_status(problems(scene), starts(scene))
          endings(scene) = ending_at(starts(scene), status,.not. run%by_series, endings(scene)%count)
-         if (status /= status_complete .or. request%periods <= starts(scene)%periods) cycle
-         call load_problem(problems(scene), starts(scene), request%accuracy, lane, run%block)
+         if (status /= status_complete .or. run%request%periods <= starts(scene)%periods) cycle
+         call load_problem(problems(scene), starts(scene), run%request%accuracy, lane, run%block)
          call place_inner(problems(scene), starts(scene), run%inner(lane))
          if (run%by_series) call set_coefficients(problems(scene), starts(scene)%carried_on, lane, run%block)
          run%contacts(lane) = problems(scene)%contact
@@ -152,8 +149,8 @@ contains
             watch%scene = scene
             watch%ending%count = endings(scene)%count
             watch%period = starts(scene)%periods
-            watch%last_period = request%periods
-            watch%sample_from = max(0, request%periods - request%sampled_periods)
+            watch%last_period = run%request%periods
+            watch%sample_from = max(0, run%request%periods - run%request%sampled_periods)
             allocate (watch%state(state_size(problems(scene))))
             call take_state(lane, run%block, run%inner(lane), watch%state)
             allocate (watch%weights(state_size(problems(scene))), source=1.0_dp)
@@ -179,7 +176,6 @@ contains
 
    !> Begin a period that is sampled, and its window if it is the first one.
    pure subroutine begin_period(lane, run, records)
-      !> Lane
       integer, intent(in) :: lane
       type(lane_run_t), intent(inout) :: run
       type(window_record_t), optional, intent(inout) :: records(:)
@@ -204,7 +200,7 @@ contains
       integer :: l
 
       do l = 1, lanes
-         if (run%samples%sampled(l) .and. run%block%trust(l) > 0.0_dp) &
+         if (run%samples%sampled(l) .and. run%block%accepted(l) > 0.0_dp) &
             call take_nodes(run%block, l, run%inner(l), records(run%watches(l)%scene)%longest_piece, run%nodes(l))
       end do
    end subroutine take_lane_nodes
@@ -218,11 +214,9 @@ contains
    end function samples_before
 
    !> A period has ended: does the motion repeat, are samples due?
-   pure subroutine end_period(lane, problems, request, states, run, records, known)
-      !> Lane
+   pure subroutine end_period(lane, problems, states, run, records, known)
       integer, intent(in) :: lane
       type(problem_t), intent(in) :: problems(:)
-      type(request_t), intent(in) :: request
       real(dp), contiguous, intent(inout) :: states(:, :, :)
       type(lane_run_t), intent(inout) :: run
       type(window_record_t), optional, intent(inout) :: records(:)
@@ -235,16 +229,14 @@ contains
          call start_period(lane, block)
          watch%period = watch%period + 1
          call take_state(lane, block, run%inner(lane), watch%state)
-         if (present(known)) call look_for_known(lane, problems(watch%scene), known(watch%scene), request, run)
-         if (watch%ending%known == 0) call find_repetition(lane, problems(watch%scene), request, states, run)
-         if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) &
-            call begin_period(lane, run, records)
+         if (present(known)) call look_for_known(lane, problems(watch%scene), known(watch%scene), run)
+         if (watch%ending%known == 0) call find_repetition(lane, problems(watch%scene), states, run)
+         if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) call begin_period(lane, run, records)
       end associate
    end subroutine end_period
 
    !> The scene of a lane goes no further; its state is that at the start of the period.
    pure subroutine give_up(lane, run)
-      !> Lane
       integer, intent(in) :: lane
       type(lane_run_t), intent(inout) :: run
 
@@ -310,7 +302,6 @@ contains
 
    !> Record the end of a motion.
    pure subroutine finish(lane, problems, run, endings, watches)
-      !> Lane
       integer, intent(in) :: lane
       type(problem_t), intent(in) :: problems(:)
       type(lane_run_t), intent(inout) :: run
@@ -333,7 +324,6 @@ contains
 
    !> Whether the motion of a lane cannot go on like this.
    pure logical function in_trouble(lane, run)
-      !> Lane
       integer, intent(in) :: lane
       type(lane_run_t), intent(in) :: run
 

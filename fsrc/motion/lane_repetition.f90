@@ -1,24 +1,22 @@
-!> Whether the motion of a lane repeats, asked at the end of every period: within the accuracy, so that a run until steady ends;
-!> to the last bit, so that what follows is known; and where a motion that settles slowly will come to rest.
+!> Whether the motion of a lane repeats, looked for at the end of every period: within the accuracy, so that a run until steady
+!> ends; to the last bit, so that nothing more has to be computed; and where a motion that settles slowly will come to rest.
 !>
 !> The forecast is an extrapolation of three successive differences (fsrc/THEORY.md, section 7); where they are parallel, because
 !> the motion forgets all but one direction at once, one ratio does (Aitken). It costs no period more.
 !>
-!> A forecast is no proof: the motion goes on from there, and repeats or not by its own states (module repetition);
-!> if not, it goes back to where it was. A forecast is made only where it is safe: multipliers inside
-!> the unit circle, the same in two successive estimates, and a place that is near. So a motion that leaves an unstable one
-!> is not led back to it.
+!> A forecast is no proof: the motion goes on from there, and repeats or not by its own states (module repetition); if not, it goes
+!> back to where it was. A forecast is made only where it is safe: multipliers inside the unit circle, the same in two successive
+!> estimates, and a place that is near. So a motion that leaves an unstable one is not led back to it.
 module lane_repetition
    use engine, only: last_search_period, motion_state_t, request_t
    use kinds, only: dp, int64
-   use irregular_states, only: compared_after
-   use known_motions, only: joined_irregular, known_motions_t, reached_motion
+   use known_motions, only: compared_after, joined_irregular, known_motions_t, reached_motion
    use lane_run, only: departure_t, lane_run_t, lane_watch_t
    use lane_sampling, only: repeat_samples
    use lane_state, only: films_of_lane, place_state, state_of_lane, thinner_scaled_film
    use problem, only: films_near_rest, of_film, of_velocity, problem_t, settling_of, settling_t
-   use repetition, only: longer_every, longest_orbit, look_back, note_state, orbit_watch_t, recurrence_t, &
-      start_watch, state_of_age, weight_of_film
+   use repetition, only: longer_every, longest_orbit, look_back, note_state, orbit_watch_t, recurrence_t, start_watch, &
+      state_of_age, weight_of_film
    use scene_status, only: status_steady
    use taylor_step_control, only: lienard_weight
    implicit none(type, external)
@@ -47,13 +45,9 @@ module lane_repetition
 contains
 
    !> Look for repetition at the end of a period.
-   pure subroutine find_repetition(lane, problem, request, states, run)
-      !> Lane
+   pure subroutine find_repetition(lane, problem, states, run)
       integer, intent(in) :: lane
-      !> What moves there
       type(problem_t), intent(in) :: problem
-      !> What is asked for
-      type(request_t), intent(in) :: request
       !> Samples: sample, number of its state, scene
       real(dp), contiguous, intent(inout) :: states(:, :, :)
       !> The block, its period counted and its state that of the period's end
@@ -61,7 +55,7 @@ contains
       real(dp) :: weight, distance
       integer :: orbit
 
-      associate (watch => run%watches(lane), block => run%block)
+      associate (watch => run%watches(lane), block => run%block, request => run%request)
          if (is_searching(watch, request)) then
             weight = lienard_weight(thinner_scaled_film(watch%state, lane, block), block%damping_rate(lane), block%force(lane))
             watch%weights(of_velocity) = weight
@@ -84,22 +78,18 @@ contains
 
    !> Look whether the motion has come to one that is known. It is then that motion, and goes no further. An excursion, which did
    !> not start where the motion did, is no witness.
-   pure subroutine look_for_known(lane, problem, known, request, run)
-      !> Lane
+   pure subroutine look_for_known(lane, problem, known, run)
       integer, intent(in) :: lane
-      !> What moves there
       type(problem_t), intent(in) :: problem
       !> What is known of it
       type(known_motions_t), intent(in) :: known
-      !> What is asked for
-      type(request_t), intent(in) :: request
       !> The block, its period counted and its state that of the period's end
       type(lane_run_t), intent(inout) :: run
       type(motion_state_t) :: here
       integer :: periods, i
 
       associate (watch => run%watches(lane))
-         if (.not. is_searching(watch, request) .or. watch%departure%period > 0 .or. .not. allocated(known%motions)) return
+         if (.not. is_searching(watch, run%request) .or. watch%departure%period > 0 .or. .not. allocated(known%motions)) return
          here = state_of_lane(lane, run%block, run%inner(lane))
          if (allocated(watch%earlier)) watch%ending%known = reached_motion(problem, known, watch%earlier, here%numbers)
          if (any([(allocated(known%motions(i)%path), i=1, size(known%motions))])) then
@@ -131,7 +121,6 @@ contains
 
    !> How the film of a lane settles from where it is.
    pure type(settling_t) function settling_of_lane(lane, problem, run)
-      !> Lane
       integer, intent(in) :: lane
       type(problem_t), intent(in) :: problem
       type(lane_run_t), intent(in) :: run
@@ -147,7 +136,6 @@ contains
    !> Skip the periods in which the motion only returns to the state it is in, to the last bit: whole cycles up to where
    !> sampling begins, and at the end those whose samples are the ones of the cycle before. Their steps count like the others.
    pure subroutine skip_returns(lane, states, run)
-      !> Lane
       integer, intent(in) :: lane
       real(dp), contiguous, intent(inout) :: states(:, :, :)
       type(lane_run_t), intent(inout) :: run
@@ -177,7 +165,6 @@ contains
    pure subroutine look_ahead(weight, lane, last, run)
       !> Film that a Lienard variable of one counts as [-]
       real(dp), intent(in) :: weight
-      !> Lane
       integer, intent(in) :: lane
       !> Last period after which repetition may be found
       integer, intent(in) :: last
@@ -214,7 +201,6 @@ contains
 
    !> Restore the state from which the motion jumped.
    pure subroutine restore_departure(lane, run)
-      !> Lane
       integer, intent(in) :: lane
       type(lane_run_t), intent(inout) :: run
 
@@ -230,7 +216,6 @@ contains
    pure subroutine place(state, lane, run)
       !> Scaled [-]
       real(dp), intent(in) :: state(:)
-      !> Lane
       integer, intent(in) :: lane
       type(lane_run_t), intent(inout) :: run
 

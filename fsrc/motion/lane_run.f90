@@ -1,13 +1,13 @@
 !> A block of lanes at work: what has become of the scene of every lane, and what is taken of it on the way.
 module lane_run
    use elastic_tangents, only: lane_tangents_t
-   use engine, only: ending_t
+   use engine, only: ending_t, request_t
    use flank_contact, only: flank_contact_t
    use film_series, only: film_series_t
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_functions, only: lanes
-   use lane_inner, only: lane_inner_t
+   use lane_state, only: lane_inner_t
    use lane_sampling, only: lane_samples_t
    use repetition, only: orbit_watch_t, recurrence_t
    use step_nodes, only: step_nodes_t
@@ -50,6 +50,7 @@ module lane_run
 
    !> A block at work.
    type, public :: lane_run_t
+      type(request_t) :: request
       !> Taylor series, else collocation; and whose series; and whether contacts have numbers of their own
       logical :: by_series = .true., own_numbers = .false.
       type(film_series_t) :: series

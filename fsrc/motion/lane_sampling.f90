@@ -1,11 +1,10 @@
 !> Samples of the motions of a block at equidistant phases, from the series of the steps they lie in.
-!> Nothing is evaluated where no sample is asked for.
+!> Nothing is evaluated where no sample is requested.
 module lane_sampling
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_functions, only: lanes
-   use lane_inner, only: evaluate_inner, lane_inner_t
-   use lane_state, only: carried_numbers, series_of_number
+   use lane_state, only: carried_numbers, evaluate_inner, sum_series, lane_inner_t, series_of_number
    use problem, only: of_film, of_velocity
    use taylor_step_control, only: order
    implicit none(type, external)
@@ -70,7 +69,7 @@ contains
 
       number = real(samples%per_period, dp)
       do l = 1, lanes
-         if (.not. (samples%sampled(l) .and. block%trust(l) > 0.0_dp)) cycle
+         if (.not. (samples%sampled(l) .and. block%accepted(l) > 0.0_dp)) cycle
          film_series = block%film(l, :)
          lienard_series = block%lienard(l, :)
          carried = carried_numbers(l, block)
@@ -89,7 +88,7 @@ contains
             states(first:first + due - 1, of_film, samples%column(l)) = film(:due)*block%film_scale(l)
             states(first:first + due - 1, of_velocity, samples%column(l)) = velocity(:due)*block%velocity_scale(l)
             do k = 1, carried
-               call evaluate_series(series_of_number(l, k, block), x, values)
+               call sum_series(together, series_of_number(l, k, block), x, values)
                states(first:first + due - 1, of_velocity + k, samples%column(l)) = values(:due)*block%film_scale(l)
             end do
             if (inner(l)%count > 0) call evaluate_inner(inner(l), x(:due), &
@@ -149,17 +148,10 @@ contains
       !> H and H' there
       real(dp), intent(out) :: film(together)
       real(dp), intent(out) :: velocity(together)
-      integer :: i, k
+      integer :: i
 
-      film = film_series(order)
-      velocity = lienard_series(order)
-      do k = order - 1, 0, -1
-         !$omp simd
-         do i = 1, together
-            film(i) = film(i)*x(i) + film_series(k)
-            velocity(i) = velocity(i)*x(i) + lienard_series(k)
-         end do
-      end do
+      call sum_series(together, film_series, x, film)
+      call sum_series(together, lienard_series, x, velocity)
       if (.not. slip > 0.0_dp) return
       !$omp simd
       do i = 1, together
@@ -167,22 +159,5 @@ contains
       end do
       if (backlash < huge(1.0_dp)) velocity = velocity - slip/sqrt(backlash - film)
    end subroutine evaluate_lane
-
-   !> A series of one lane at several distances from its point of expansion.
-   pure subroutine evaluate_series(series, x, values)
-      real(dp), intent(in) :: series(0:order)
-      !> Distances [periods]
-      real(dp), intent(in) :: x(together)
-      real(dp), intent(out) :: values(together)
-      integer :: i, k
-
-      values = series(order)
-      do k = order - 1, 0, -1
-         !$omp simd
-         do i = 1, together
-            values(i) = values(i)*x(i) + series(k)
-         end do
-      end do
-   end subroutine evaluate_series
 
 end module lane_sampling

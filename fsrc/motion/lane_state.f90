@@ -1,21 +1,33 @@
-!> How the numbers of a state stand in a lane: film, Lienard variable and compressions scaled in its block, states of films beside it.
-!> This is the one place of the engine that knows which number is which.
+!> How the numbers of a state stand in a lane: film, Lienard variable and compressions scaled in its block, states of films beside it,
+!> as they never enter the rows that series go over. No other place of the engine depends on which number is which.
 module lane_state
    use engine, only: motion_state_t
    use kinds, only: dp
    use lane_block, only: lane_block_t, slip_velocity
-   use lane_inner, only: lane_inner_t
-   use problem, only: of_drive_compression, of_film, of_velocity
+   use problem, only: of_drive_compression, of_film, of_velocity, contact_count, inner_places, problem_t, state_numbers
+   use radau_nodes, only: stages
    use taylor_step_control, only: order
    implicit none(type, external)
    private
 
-   public :: carried_numbers, numbers_of_lane, series_of_number, state_of_lane, velocity_of_lane, &
-              take_state, place_state, films_of_lane, thinner_scaled_film
+   !> States of the films in a lane, in the units of their law, of one flank and then of the other.
+   type, public :: lane_inner_t
+      !> Numbers of the film of one flank; 0: films have no state of their own
+      integer :: count = 0
+      !> Numbers now, where the step leads to, and series about the start of the step: number, power
+      real(dp), allocatable :: now(:)
+      real(dp), allocatable :: next(:)
+      real(dp), allocatable :: series(:, :)
+      !> Film that one of each counts as [m]
+      real(dp), allocatable :: counts_as(:)
+   end type lane_inner_t
+
+   public :: place_inner, evaluate_inner, carried_numbers, numbers_of_lane, series_of_number, sum_series, state_of_lane, &
+             velocity_of_lane, take_state, place_state, films_of_lane, thinner_scaled_film
 
 contains
 
-   !> State of a lane in units; the caller knows its period and method.
+   !> State of a lane in units; the caller sets its period and method.
    pure type(motion_state_t) function state_of_lane(lane, block, inner) result(state)
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
@@ -84,6 +96,24 @@ contains
       series = block%compression(lane, number, :)
    end function series_of_number
 
+   !> A series of a lane at some distances from its point of expansion.
+   pure subroutine sum_series(count, series, x, values)
+      integer, intent(in) :: count
+      real(dp), intent(in) :: series(0:order)
+      !> Distances [periods]
+      real(dp), intent(in) :: x(count)
+      real(dp), intent(out) :: values(count)
+      integer :: i, k
+
+      values = series(order)
+      do k = order - 1, 0, -1
+         !$omp simd
+         do i = 1, count
+            values(i) = values(i)*x(i) + series(k)
+         end do
+      end do
+   end subroutine sum_series
+
    !> Flanks of the motion in a lane.
    pure integer function flanks_of(lane, block)
       integer, intent(in) :: lane
@@ -129,5 +159,44 @@ contains
 
       thinner = minval(films_of_lane(state, lane, block))
    end function thinner_scaled_film
+
+   !> Put the films of a motion into a lane.
+   pure subroutine place_inner(problem, start, inner)
+      type(problem_t), intent(in) :: problem
+      !> Where it starts
+      type(motion_state_t), intent(in) :: start
+      type(lane_inner_t), intent(out) :: inner
+      integer :: first, last, places(2), i
+
+      places = inner_places(problem, 1)
+      inner%count = places(2) - places(1) + 1
+      if (inner%count == 0) return
+      first = places(1)
+      places = inner_places(problem, contact_count(problem))
+      last = places(2)
+      allocate (inner%now(last - first + 1), source=start%numbers(first:last))
+      allocate (inner%next(last - first + 1), source=start%numbers(first:last))
+      allocate (inner%series(last - first + 1, 0:stages), source=0.0_dp)
+      associate (numbers => state_numbers(problem))
+         allocate (inner%counts_as(last - first + 1), source=[(numbers(i)%counts_as, i=first, last)])
+      end associate
+   end subroutine place_inner
+
+   !> The states at some distances from the start of the step.
+   pure subroutine evaluate_inner(inner, distances, values)
+      type(lane_inner_t), intent(in) :: inner
+      !> [periods]
+      real(dp), intent(in) :: distances(:)
+      !> Distance, number
+      real(dp), intent(out) :: values(:, :)
+      integer :: k, i
+
+      do i = 1, size(values, 2)
+         values(:, i) = inner%series(i, stages)
+         do k = stages - 1, 0, -1
+            values(:, i) = values(:, i)*distances + inner%series(i, k)
+         end do
+      end do
+   end subroutine evaluate_inner
 
 end module lane_state

@@ -11,7 +11,7 @@ module load_expansion
    implicit none(type, external)
    private
 
-   !> Highest power of the deviation that a series of the motion asks for.
+   !> Highest power of the deviation that a series of the motion takes.
    integer, parameter, public :: highest_power = 11
 
    !> Films of a block, all of one law, in the names of module taylor_rupture.

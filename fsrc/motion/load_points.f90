@@ -70,8 +70,7 @@ contains
          end if
       end do
       call add_turn_at_end(nodes_per_piece, points)
-      call add(x(nodes_per_piece + 1), y(nodes_per_piece + 1), v(nodes_per_piece + 1), .false., &
-               points)
+      call add(x(nodes_per_piece + 1), y(nodes_per_piece + 1), v(nodes_per_piece + 1), .false., points)
 
    contains
 
@@ -124,7 +123,7 @@ contains
          integer, parameter :: most_renewals = 8
          real(dp), parameter :: same_place = 1.0e-7_dp
          real(dp) :: at(3), height(3), top, estimate, sign_of, here
-         integer :: pass
+         integer :: iteration
 
          sign_of = merge(1.0_dp, -1.0_dp, values(2) > values(1))
          at = places
@@ -132,7 +131,7 @@ contains
          place = places(2)
          load = values(2)
          velocity = speed
-         do pass = 1, most_renewals
+         do iteration = 1, most_renewals
             call top_of_parabola(at, height, top, estimate)
             if (.not. (top > at(1) .and. top < at(3))) exit
             if (abs(top - at(2)) < same_place) exit
@@ -164,10 +163,10 @@ contains
       !> W [N] and the velocity of the gear [m/s] there
       real(dp), intent(out) :: load
       real(dp), intent(out) :: velocity
-      integer, parameter :: most_passes = 60
+      integer, parameter :: most_iterations = 60
       real(dp), parameter :: same_place = 1.0e-13_dp, same_load = 1.0e-13_dp
       real(dp) :: x(2), y(2)
-      integer :: pass, side, side_before
+      integer :: iteration, side, side_before
 
       x = points%place(second - 1:second)
       y = points%load(second - 1:second) - level
@@ -175,7 +174,7 @@ contains
       place = x(2)
       load = points%load(second)
       velocity = points%velocity(second)
-      do pass = 1, most_passes
+      do iteration = 1, most_iterations
          if (x(2) - x(1) < same_place) exit
          place = (x(1)*y(2) - x(2)*y(1))/(y(2) - y(1))
          if (.not. (place > x(1) .and. place < x(2))) place = 0.5_dp*(x(1) + x(2))

@@ -1,10 +1,10 @@
-!> What the loads of both films tell of a window: impacts, and the share of it in which the drive film is unloaded.
+!> Record of the loads of both films over a window: impacts, and the share of it in which the drive film is unloaded.
 !>
-!> The loads are told to module impacts as points in the order of time: those of module load_points, and where W passes F_max. A
+!> Module impacts takes the loads as points in the order of time: those of module load_points, and where W passes F_max. A
 !> piece of a step in which W stays far below F_max is one low point.
 module load_record
    use carried_loads, only: contact_loads
-   use impacts, only: impact_watch_t, load_point_t, point_fall, point_low, point_passing, point_rise, tell_load
+   use impacts, only: impact_watch_t, load_point_t, point_fall, point_low, point_passing, point_rise, take_point
    use kinds, only: dp
    use load_points, only: find_crossing, find_points, load_at, piece_points_t
    use problem, only: closing_velocity, contact_count, largest_applied_force, most_contacts, of_velocity, problem_t, static_load
@@ -16,13 +16,13 @@ module load_record
 
    !> How far W may leave the range of the nodes of its piece, as a share of this range.
    real(dp), parameter :: beyond_nodes = 0.5_dp
-   !> A film is unloaded below this share of the static load, and the contact for which it is told: that of the drive flank.
+   !> A film is unloaded below this share of the static load, and the contact for which that is recorded: that of the drive flank.
    real(dp), parameter :: unloaded_share = 0.01_dp
    integer, parameter :: loaded_contact = 1
 
    !> Record of the loads.
    type, public :: load_record_t
-      !> What is asked for: loads above this multiple of F_max are impacts; 0: nothing is recorded
+      !> What is requested: loads above this multiple of F_max are impacts; 0: nothing is recorded
       real(dp) :: impact_limit = 0.0_dp
       type(impact_watch_t) :: contacts(most_contacts) = impact_watch_t()
       !> Load below which the drive film is unloaded [N], and for how long [periods]
@@ -34,7 +34,7 @@ module load_record
 
 contains
 
-   !> Start a record. What is asked for stays.
+   !> Start a record. What is requested stays.
    pure subroutine start_loads(problem, record)
       type(problem_t), intent(in) :: problem
       type(load_record_t), intent(inout) :: record
@@ -76,10 +76,10 @@ contains
          room = beyond_nodes*(largest - smallest)
          points%count = 0
          if (largest + room < low) then
-            call tell_low(real(period, dp) + start(piece), record%contacts(contact))
+            call record_low(real(period, dp) + start(piece), record%contacts(contact))
          else
             call find_points(problem, contact, states, piece, loads(before + 1:before + nodes_per_piece), points)
-            call tell_piece(problem, contact, real(period, dp) + start(piece), length(piece), states, piece, &
+            call record_piece(problem, contact, real(period, dp) + start(piece), length(piece), states, piece, &
                             loads(before + 1:before + nodes_per_piece), points, record%contacts(contact))
          end if
          if (contact /= loaded_contact) cycle
@@ -100,17 +100,17 @@ contains
       low_load = min(watch%level, 0.5_dp*watch%limit)
    end function low_load
 
-   !> Tell that W is low.
-   pure subroutine tell_low(time, watch)
+   !> Record that W is low.
+   pure subroutine record_low(time, watch)
       real(dp), intent(in) :: time
       type(impact_watch_t), intent(inout) :: watch
 
       if (watch%started .and. watch%last%kind == point_low) return
-      call tell_load(load_point_t(time=time, sum=watch%last%sum, kind=point_low), watch)
-   end subroutine tell_low
+      call take_point(load_point_t(time=time, sum=watch%last%sum, kind=point_low), watch)
+   end subroutine record_low
 
-   !> Tell the points of a piece.
-   pure subroutine tell_piece(problem, contact, start, length, states, piece, loads, points, watch)
+   !> Record the points of a piece.
+   pure subroutine record_piece(problem, contact, start, length, states, piece, loads, points, watch)
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: contact
       !> Time where the piece begins, and its length [periods]
@@ -129,34 +129,23 @@ contains
       summed = 0.0_dp
       ! Rounding may put the end of one piece and the begin of the next on different sides of F_max.
       if (watch%started .and. (watch%above .neqv. points%load(1) > watch%level)) &
-         call tell(merge(point_fall, point_rise, watch%above), 0.0_dp, watch%level, points%velocity(1), total, watch)
-      call tell(merge(point_low, point_passing, points%load(1) < low), 0.0_dp, points%load(1), points%velocity(1), total, watch)
+         call note(contact, merge(point_fall, point_rise, watch%above), start, watch%level, points%velocity(1), total, watch)
+      call note(contact, merge(point_low, point_passing, points%load(1) < low), start, points%load(1), points%velocity(1), &
+                total, watch)
       do i = 2, points%count
          if (points%load(i - 1) > watch%level .neqv. points%load(i) > watch%level) then
             call find_crossing(problem, contact, states, piece, points, i, watch%level, place, load, velocity)
             if (watch%above) call add_integral(place, summed, total)
             summed = place
-            call tell(merge(point_fall, point_rise, watch%above), place, watch%level, velocity, total, watch)
+            call note(contact, merge(point_fall, point_rise, watch%above), start + place*length, watch%level, velocity, &
+                      total, watch)
          end if
          if (watch%above .and. (points%turns(i) .or. i == points%count)) call add_integral(points%place(i), summed, total)
-         call tell(merge(point_low, point_passing, points%load(i) < low), points%place(i), points%load(i), points%velocity(i), &
-                   total, watch)
+         call note(contact, merge(point_low, point_passing, points%load(i) < low), start + points%place(i)*length, points%load(i), &
+                   points%velocity(i), total, watch)
       end do
 
    contains
-
-      !> Tell a point.
-      pure subroutine tell(kind_of, place, load, velocity, total, watch)
-         integer, intent(in) :: kind_of
-         real(dp), intent(in) :: place
-         real(dp), intent(in) :: load
-         real(dp), intent(in) :: velocity
-         real(dp), intent(in) :: total
-         type(impact_watch_t), intent(inout) :: watch
-
-         call tell_load(load_point_t(time=start + place*length, load=load, &
-                                     velocity=closing_velocity(contact, velocity), sum=total, kind=kind_of), watch)
-      end subroutine tell
 
       !> Take the integral of W up to a place into the sum.
       pure subroutine add_integral(place, summed, total)
@@ -180,7 +169,23 @@ contains
          summed = place
       end subroutine add_integral
 
-   end subroutine tell_piece
+   end subroutine record_piece
+
+   !> Take a point of W into the impacts.
+   pure subroutine note(contact, kind_of, time, load, velocity, total, watch)
+      integer, intent(in) :: contact
+      integer, intent(in) :: kind_of
+      real(dp), intent(in) :: time
+      real(dp), intent(in) :: load
+      !> Of the gear [m/s]
+      real(dp), intent(in) :: velocity
+      !> Integral of W so far
+      real(dp), intent(in) :: total
+      type(impact_watch_t), intent(inout) :: watch
+
+      call take_point(load_point_t(time=time, load=load, velocity=closing_velocity(contact, velocity), sum=total, &
+                                   kind=kind_of), watch)
+   end subroutine note
 
    !> Share of a piece in which the drive film carries less than a level.
    pure real(dp) function share_below(problem, states, piece, points, level) result(share)
@@ -220,14 +225,14 @@ contains
       do contact = 1, contact_count(problem)
          call contact_loads(problem, contact, states, loads(1:))
          loads(0) = loads(n)
-         call tell_samples(contact, loads, [states(n, of_velocity), states(:, of_velocity)], samples_per_period, &
+         call record_samples(contact, loads, [states(n, of_velocity), states(:, of_velocity)], samples_per_period, &
                            record%contacts(contact))
          if (contact == loaded_contact) record%unloaded = time_below(loads, record%unloaded_level)/real(samples_per_period, dp)
       end do
    end subroutine record_load_samples
 
-   !> Tell samples of W.
-   pure subroutine tell_samples(contact, loads, velocities, samples_per_period, watch)
+   !> Record samples of W.
+   pure subroutine record_samples(contact, loads, velocities, samples_per_period, watch)
       integer, intent(in) :: contact
       !> The last one, and all of them
       real(dp), intent(in) :: loads(0:)
@@ -240,38 +245,22 @@ contains
       step = 1.0_dp/real(samples_per_period, dp)
       low = low_load(watch)
       total = 0.0_dp
-      call tell(point_passing, 0.0_dp, loads(0), velocities(0), total, watch)
+      call note(contact, point_passing, 0.0_dp, loads(0), velocities(0), total, watch)
       do i = 1, ubound(loads, 1)
          share = 0.0_dp
          if (loads(i - 1) > watch%level .neqv. loads(i) > watch%level) then
             share = (watch%level - loads(i - 1))/(loads(i) - loads(i - 1))
             if (watch%above) total = total + 0.5_dp*share*step*(loads(i - 1) + watch%level)
-            call tell(merge(point_fall, point_rise, watch%above), (real(i - 1, dp) + share)*step, watch%level, &
+            call note(contact, merge(point_fall, point_rise, watch%above), (real(i - 1, dp) + share)*step, watch%level, &
                       velocities(i - 1) + share*(velocities(i) - velocities(i - 1)), total, watch)
             if (watch%above) total = total + 0.5_dp*(1.0_dp - share)*step*(watch%level + loads(i))
          else if (watch%above) then
             total = total + 0.5_dp*step*(loads(i - 1) + loads(i))
          end if
-         call tell(merge(point_low, point_passing, loads(i) < low), real(i, dp)*step, loads(i), velocities(i), &
+         call note(contact, merge(point_low, point_passing, loads(i) < low), real(i, dp)*step, loads(i), velocities(i), &
                    total, watch)
       end do
-
-   contains
-
-      !> Tell a point.
-      pure subroutine tell(kind_of, time, load, velocity, total, watch)
-         integer, intent(in) :: kind_of
-         real(dp), intent(in) :: time
-         real(dp), intent(in) :: load
-         real(dp), intent(in) :: velocity
-         real(dp), intent(in) :: total
-         type(impact_watch_t), intent(inout) :: watch
-
-         call tell_load(load_point_t(time=time, load=load, velocity=closing_velocity(contact, velocity), sum=total, &
-                                     kind=kind_of), watch)
-      end subroutine tell
-
-   end subroutine tell_samples
+   end subroutine record_samples
 
    !> Time in which straight lines between numbers one apart are below a level.
    pure real(dp) function time_below(values, level) result(time)

@@ -31,7 +31,7 @@ contains
       type(problem_t), intent(in) :: problems(:)
       !> Where each motion starts
       type(motion_state_t), intent(in) :: starts(:)
-      !> What is asked for
+      !> What is requested
       type(request_t), intent(in) :: request
       !> Samples: sample, number of its state, problem; at least sampled_periods*samples_per_period of a problem
       real(dp), contiguous, intent(inout) :: states(:, :, :)
@@ -39,7 +39,7 @@ contains
       type(ending_t), intent(out) :: endings(:)
       !> What a search for repetition that is carried on looks back on, problem by problem; without it every search begins anew
       type(orbit_watch_t), optional, intent(inout) :: watches(:)
-      !> What the steps of the sampled periods tell, problem by problem; a motion that is carried on within them adds to it
+      !> Records of the steps of the sampled periods, problem by problem; a motion that is carried on within them adds to its own
       type(window_record_t), optional, intent(inout) :: records(:)
       !> Periodic motions that are known, problem by problem: a run until steady that comes to one of them ends there
       type(known_motions_t), optional, intent(in) :: known(:)
@@ -47,7 +47,7 @@ contains
       !> displacement, problem; each in its unit times any number. Allocatable, since gfortran 12 works out bounds of other arrays
       !> that are absent
       real(dp), optional, allocatable, intent(inout) :: displacements(:, :, :)
-      type(request_t) :: asked
+      type(request_t) :: every
       type(motion_state_t), allocatable :: rest(:)
       logical, allocatable :: explicit(:), left(:), alike(:)
       integer, allocatable :: number(:)
@@ -55,15 +55,15 @@ contains
 
       allocate (explicit(size(problems)), left(size(problems)), alike(size(problems)), number(size(problems)))
       number(:) = [(i, i=1, size(problems))]
-      asked = request
+      every = request
       ! A period that is skipped, since the motion returns to the last bit, would move no displacement.
-      if (present(displacements)) asked%every_period = .true.
+      if (present(displacements)) every%every_period = .true.
       explicit(:) = goes_by_series(problems, starts, request%accuracy)
       left(:) = explicit
       do while (any(left))
          first = findloc(left, .true., dim=1)
          alike(:) = same_kind(problems, problems(first))
-         call integrate_lanes(.true., problems, starts, pack(number, left .and. alike), asked, states, endings, watches, &
+         call integrate_lanes(.true., problems, starts, pack(number, left .and. alike), every, states, endings, watches, &
                               records, known)
          left(:) = left .and. .not. alike
       end do
@@ -80,7 +80,7 @@ contains
       do i = 0, 1
          alike(:) = left .and. (has_inner_numbers(problems) .eqv. i == 1)
          if (any(alike)) &
-            call integrate_lanes(.false., problems, rest, pack(number, alike), asked, states, endings, watches, records, known, &
+            call integrate_lanes(.false., problems, rest, pack(number, alike), every, states, endings, watches, records, known, &
                                  displacements)
       end do
    end subroutine solve_motions

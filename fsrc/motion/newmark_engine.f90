@@ -8,8 +8,7 @@ module newmark_engine
    use flank_contact, only: kernel_of_contact
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
-   use newmark, only: advance_period, start_motion
-   use newmark_step, only: newmark_state_t
+   use newmark, only: advance_period, newmark_state_t, start_motion
    use problem, only: film_unit, of_film, of_velocity, problem_t, reference_films, rigid_films, settling_of, state_size, &
       thinner_in_units
    use repetition, only: note_state, orbit_watch_t
@@ -30,17 +29,17 @@ contains
    subroutine solve_newmark(problem, request, sink, watcher, checkpoint, ending, record, error)
       !> What moves
       type(problem_t), intent(in) :: problem
-      !> What is asked for
+      !> What is requested
       type(request_t), intent(in) :: request
       !> Takes the samples
       class(sample_sink_t), intent(inout) :: sink
-      !> Told of progress
+      !> Is called after every period
       class(motion_watcher_t), intent(inout) :: watcher
       !> State to carry on from, and then the one from which the run can be extended
       type(checkpoint_t), intent(inout) :: checkpoint
       !> How it ended
       type(ending_t), intent(out) :: ending
-      !> What the steps of the window tell beyond its samples: nothing, as its samples are its steps
+      !> Record of the steps of the window: none, as its samples are its steps
       type(window_record_t), intent(out) :: record
       !> Set if the sink failed
       type(error_t), allocatable, intent(out) :: error

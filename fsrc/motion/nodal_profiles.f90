@@ -16,9 +16,9 @@ module nodal_profiles
       real(dp), allocatable :: pressures(:), films(:)
    end type nodal_profile_t
 
-   !> What is asked for, and then the profiles of a window.
+   !> What is requested, and then the profiles of a window.
    type, public :: nodal_profiles_t
-      !> Whether any are asked for
+      !> Whether any are requested
       logical :: wanted = .false.
       !> Phases of the last period, in their order [periods]; none: at the largest loads
       real(dp), allocatable :: phases(:)
@@ -40,7 +40,7 @@ contains
    !> Begin a window.
    pure subroutine start_profiles(contact, profiles)
       type(nodal_contact_t), intent(in) :: contact
-      !> What is asked for stays
+      !> What is requested stays
       type(nodal_profiles_t), intent(inout) :: profiles
       integer, parameter :: first_room = 16
 
@@ -52,9 +52,8 @@ contains
       if (.not. allocated(profiles%kept)) allocate (profiles%kept(first_room))
    end subroutine start_profiles
 
-   !> Keep what is asked for of an accepted step.
-   pure subroutine note_profiles(contact, flanks, motion, period, is_last, profiles)
-      type(nodal_contact_t), intent(in) :: contact
+   !> Keep what is requested of an accepted step.
+   pure subroutine note_profiles(flanks, motion, period, is_last, profiles)
       !> How many there are
       integer, intent(in) :: flanks
       type(motion_t), intent(in) :: motion
@@ -71,14 +70,14 @@ contains
          do while (profiles%next <= size(profiles%phases))
             if (profiles%phases(profiles%next) > motion%time(1)*(1.0_dp + epsilon(1.0_dp))) exit
             do flank = 1, flanks
-               call keep(profile_of(contact, motion, flank, 1, period), profiles)
+               call keep(profile_of(profiles%contact, motion, flank, 1, period), profiles)
             end do
             profiles%next = profiles%next + 1
          end do
          return
       end if
       do flank = 1, flanks
-         associate (load => motion%flanks(flank)%load)
+         associate (load => motion%flanks(flank)%load, contact => profiles%contact)
             if (load(1) > profiles%largest(flank)%load) profiles%largest(flank) = profile_of(contact, motion, flank, 1, period)
             if (real(period, dp) + motion%time(2) < 0.0_dp) cycle
             if (load(2) >= load(1) .and. load(2) > load(3)) call keep(profile_of(contact, motion, flank, 2, period), profiles)

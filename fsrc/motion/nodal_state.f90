@@ -2,7 +2,7 @@
 !> of its films, with pressures and volumes where a film is in nodes at that time.
 module nodal_state
    use kinds, only: dp
-   use nodal_flank, only: difference_times, kept_times, nodal_flank_t
+   use nodal_flank, only: difference_times, kept_times
    use nodal_step, only: motion_t
    use problem, only: contact_count, problem_t, state_size
    implicit none(type, external)
@@ -60,72 +60,59 @@ contains
       !> As of pack_motion
       real(dp), intent(in) :: numbers(:)
       type(motion_t), intent(out) :: motion
-      integer :: flank, next
+      real(dp) :: single(3), in_nodes(1)
+      integer :: flank, next, j
 
       next = 1
-      motion%position = taken(next, kept_times + 1)
-      next = next + kept_times + 1
-      motion%velocity = taken(next, kept_times + 1)
-      next = next + kept_times + 1
-      motion%time = taken(next, kept_times + 1)
-      next = next + kept_times + 1
-      motion%known = nint(numbers(next))
-      motion%step = numbers(next + 1)
-      motion%fastest = numbers(next + 2)
-      next = next + 3
+      call take(numbers, next, motion%position)
+      call take(numbers, next, motion%velocity)
+      call take(numbers, next, motion%time)
+      call take(numbers, next, single)
+      motion%known = nint(single(1))
+      motion%step = single(2)
+      motion%fastest = single(3)
       allocate (motion%states(0:kept_times, state_size(problem)))
-      motion%states(:, :) = reshape(taken(next, size(motion%states)), shape(motion%states))
-      next = next + size(motion%states)
-      do flank = 1, contact_count(problem)
-         call unpack_flank(motion%flanks(flank), next)
+      do j = 1, size(motion%states, 2)
+         call take(numbers, next, motion%states(:, j))
       end do
-
-   contains
-
-      !> Some numbers.
-      pure function taken(first, count)
-         !> Place of the first one
-         integer, intent(in) :: first
-         integer, intent(in) :: count
-         real(dp) :: taken(count)
-
-         taken = numbers(first:first + count - 1)
-      end function taken
-
-      !> The next flank.
-      pure subroutine unpack_flank(film, next)
-         type(nodal_flank_t), intent(inout) :: film
-         !> Place of the next number
-         integer, intent(inout) :: next
-         real(dp) :: histories(0:kept_times, 5), pairs(0:1, 4)
-
-         histories = reshape(taken(next, size(histories)), shape(histories))
-         next = next + size(histories)
-         film%gap = histories(:, 1)
-         film%load = histories(:, 2)
-         film%film = histories(:, 3)
-         film%velocity = histories(:, 4)
-         film%centre = histories(:, 5)
-         pairs = reshape(taken(next, size(pairs)), shape(pairs))
-         next = next + size(pairs)
-         film%peak = pairs(:, 1)
-         film%film_at_peak = pairs(:, 2)
-         film%middle = pairs(:, 3)
-         film%bending = pairs(:, 4)
-         film%in_nodes = numbers(next) > 0.5_dp
-         next = next + 1
-         if (film%in_nodes) then
+      do flank = 1, contact_count(problem)
+         associate (film => motion%flanks(flank))
+            call take(numbers, next, film%gap)
+            call take(numbers, next, film%load)
+            call take(numbers, next, film%film)
+            call take(numbers, next, film%velocity)
+            call take(numbers, next, film%centre)
+            call take(numbers, next, film%peak)
+            call take(numbers, next, film%film_at_peak)
+            call take(numbers, next, film%middle)
+            call take(numbers, next, film%bending)
+            call take(numbers, next, in_nodes)
+            film%in_nodes = in_nodes(1) > 0.5_dp
+            if (.not. film%in_nodes) then
+               next = next + nodes*(kept_times + 1 + difference_times)
+               cycle
+            end if
             allocate (film%pressures(nodes, 0:kept_times), film%volumes(nodes, difference_times), film%past(nodes), source=0.0_dp)
             allocate (film%active(nodes), source=.false.)
-            film%pressures(:, :) = reshape(taken(next, nodes*(kept_times + 1)), [nodes, kept_times + 1])
-            next = next + nodes*(kept_times + 1)
-            film%volumes(:, :) = reshape(taken(next, nodes*difference_times), [nodes, difference_times])
-            next = next + nodes*difference_times
-         else
-            next = next + nodes*(kept_times + 1 + difference_times)
-         end if
-      end subroutine unpack_flank
-
+            do j = 0, kept_times
+               call take(numbers, next, film%pressures(:, j))
+            end do
+            do j = 1, difference_times
+               call take(numbers, next, film%volumes(:, j))
+            end do
+         end associate
+      end do
    end subroutine unpack_motion
+
+   !> Take the next numbers.
+   pure subroutine take(numbers, next, values)
+      real(dp), intent(in) :: numbers(:)
+      !> Place of the first one, then of the one behind the last
+      integer, intent(inout) :: next
+      real(dp), intent(out) :: values(:)
+
+      values = numbers(next:next + size(values) - 1)
+      next = next + size(values)
+   end subroutine take
 
 end module nodal_state

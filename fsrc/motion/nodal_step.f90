@@ -3,8 +3,8 @@
 !>
 !>     mu Z'' = M_1 - M_2 - F(T) ,   G_1 = Z ,   G_2 = B - Z .
 !>
-!> A pass of Newton's method solves each film for a gap that is still to be corrected, M + S dG, so that the gear has one equation.
-!> A step of a rigid film that ends beyond the bound is thrown away and done again in nodes. Steps end where periods do.
+!> An iteration of Newton's method solves each film for a gap that is still to be corrected, M + S dG, so that the gear has one
+!> equation. A step of a rigid film that ends beyond the bound is thrown away and done again in nodes. Steps end where periods do.
 module nodal_step
    use carried_loads, only: films_of
    use clock, only: wall_seconds
@@ -14,11 +14,10 @@ module nodal_step
    use kinds, only: dp, int64
    use nodal_film, only: grid_of, outlet_shift
    use nodal_flank, only: accept_step, begin_step, correct_flank, difference_times, finish_step, is_bent, kept_times, &
-                          may_soften, nodal_contact_t, nodal_flank_t, respond, share_that_leaves_a_film, soften, &
-                          step_weights_t, stiffen
+      may_soften, nodal_contact_t, nodal_flank_t, respond, share_that_leaves_a_film, soften, step_weights_t, stiffen
    use nodal_tangent, only: advance_tangent, nodal_tangent_t, soften_tangent, stiffen_tangent
    use problem, only: contact_count, has_two_flanks, largest_applied_force, of_film, of_velocity, problem_t, state_size
-   use scene_status, only: status_film_cycles, status_film_torn
+   use scene_status, only: status_complete, status_film_cycles, status_film_torn
    use scene_types, only: viscosity_constant
    implicit none(type, external)
    private
@@ -32,7 +31,7 @@ module nodal_step
       real(dp) :: bound = 1.0e-2_dp
       !> S of the grid [-]
       real(dp) :: scale = 3.0_dp
-      !> When no more period is begun, of the motion and of what is learned of it, on the clock of wall_seconds [s]
+      !> When no more period is begun, of the motion and of what follows from it, on the clock of wall_seconds [s]
       real(dp) :: ends_at = huge(1.0_dp)
    end type nodal_choice_t
 
@@ -40,8 +39,11 @@ module nodal_step
    !> velocity that the force gives a free gear
    real(dp), parameter :: largest_floor = 0.05_dp, floor_share = 0.1_dp
 
-   !> Units and coefficients of the gear.
+   !> The gear: what moves, how it is followed, the contact of a flank, units and coefficients.
    type, public :: gear_t
+      type(problem_t) :: problem
+      type(nodal_choice_t) :: choice
+      type(nodal_contact_t) :: contact
       !> Film [m], load [N] and time [s] of Moes' variables
       real(dp) :: film_unit = 1.0_dp, load_unit = 1.0_dp, time_unit = 1.0_dp
       !> mu, B, and a period
@@ -80,8 +82,8 @@ module nodal_step
    !> distance that counts as error of a step, of each order
    real(dp), parameter :: shortest_step = 1.0e-13_dp, most_growth = 1.5_dp, longest_step = 0.02_dp, &
                           error_shares(3) = [0.5_dp, 0.3_dp, 0.12_dp]
-   !> Newton's passes: of them all, before nodes change one by one, and the last correction of them [-]
-   integer, parameter :: most_passes = 40, free_passes = 8
+   !> Newton's iterations: of them all, before nodes change one by one, and the last correction of them [-]
+   integer, parameter :: most_iterations = 40, free_iterations = 8
    real(dp), parameter :: last_correction = 1.0e-7_dp
    !> Rejected steps in a row after which an unloaded film is torn, its load and the times it may be in a period
    integer, parameter :: most_rejected = 6, most_torn = 20
@@ -89,7 +91,7 @@ module nodal_step
    !> Steps of a period after which a motion is given up; it takes 400 to 800, and 2000 at the finest accuracy
    integer(int64), parameter, public :: most_steps = 50000_int64
 
-   public :: is_late, set_up, state_of, take_step, begin_period, distance_of_states, fastest_of
+   public :: is_late, set_up, state_of, take_step, begin_period, distance_of_states
 
 contains
 
@@ -101,13 +103,14 @@ contains
    end function is_late
 
    !> Units, coefficients and grid.
-   pure subroutine set_up(problem, choice, contact, gear)
+   pure subroutine set_up(problem, choice, gear)
       type(problem_t), intent(in) :: problem
       type(nodal_choice_t), intent(in) :: choice
-      type(nodal_contact_t), intent(out) :: contact
       type(gear_t), intent(out) :: gear
 
-      associate (oil => problem%contact%film%closure)
+      gear%problem = problem
+      gear%choice = choice
+      associate (oil => problem%contact%film%closure, contact => gear%contact)
          contact%oil = oil
          contact%bound = choice%bound
          contact%compliance = problem%contact%compliance*oil%load_unit/oil%film_unit
@@ -127,34 +130,30 @@ contains
    end subroutine set_up
 
    !> Numbers of the state at a place of the histories.
-   pure function state_of(problem, gear, motion, place) result(state)
-      type(problem_t), intent(in) :: problem
+   pure function state_of(gear, motion, place) result(state)
       type(gear_t), intent(in) :: gear
       type(motion_t), intent(in) :: motion
       !> 0 or 1
       integer, intent(in) :: place
-      real(dp) :: state(state_size(problem))
+      real(dp) :: state(state_size(gear%problem))
       integer :: flank, first
 
       state(of_film) = motion%flanks(1)%film(place)*gear%film_unit
       state(of_velocity) = motion%velocity(place)*gear%film_unit/gear%time_unit
       do flank = 1, gear%flanks
-         state(of_velocity + flank) = problem%contact%compliance*gear%load_unit*motion%flanks(flank)%load(place)
+         state(of_velocity + flank) = gear%problem%contact%compliance*gear%load_unit*motion%flanks(flank)%load(place)
          first = of_velocity + gear%flanks + numbers_of_flank*(flank - 1) + 1
          associate (film => motion%flanks(flank))
             state(first:first + numbers_of_flank - 1) = &
-               [film%film(place)*gear%film_unit, film%peak(place)*problem%contact%film%closure%pressure_unit, &
+               [film%film(place)*gear%film_unit, film%peak(place)*gear%contact%oil%pressure_unit, &
                 film%gap(place)*gear%film_unit, film%film_at_peak(place)*gear%film_unit, film%middle(place)*gear%film_unit]
          end associate
       end do
    end function state_of
 
    !> One step, which is done again shorter, or in nodes, until it may be accepted.
-   subroutine take_step(problem, contact, gear, choice, motion, ending, tangent)
-      type(problem_t), intent(in) :: problem
-      type(nodal_contact_t), intent(in) :: contact
+   subroutine take_step(gear, motion, ending, tangent)
       type(gear_t), intent(in) :: gear
-      type(nodal_choice_t), intent(in) :: choice
       type(motion_t), intent(inout) :: motion
       type(ending_t), intent(inout) :: ending
       !> Neighbours of the motion, which follow it
@@ -176,70 +175,43 @@ contains
          end if
          order = min(motion%known, difference_times)
          weights = weights_of(motion%time*gear%period, order, min(motion%known, kept_times))
-         call solve_step(problem, contact, gear, weights, motion, ending, solved)
-         if (.not. solved) then
-            rejected = rejected + 1
-            if (rejected >= most_rejected) then
-               ! A cavity opens in a film that opens and carries next to nothing: it is that of rigid flanks again.
-               changed = .false.
-               do flank = 1, gear%flanks
-                  associate (film => motion%flanks(flank))
-                     if (film%in_nodes .and. film%load(1) < largest_floor .and. film%velocity(1) > 0.0_dp) then
-                        call soften(contact, film)
-                        if (present(tangent)) call soften_tangent(contact, film, tangent%flanks(flank))
-                        ending%count%cuts = ending%count%cuts + 1
-                        changed = .true.
-                     end if
-                  end associate
-               end do
-               if (changed) then
-                  rejected = 0
-                  if (ending%count%cuts > most_torn*int(ending%periods + 1, int64)) then
-                     ending%status = status_film_torn
-                     return
-                  end if
-               end if
-            end if
-            motion%step = 0.3_dp*(motion%time(0) - motion%time(1))
-            if (motion%step < shortest_step) then
-               ending%status = status_film_cycles
-               return
-            end if
-            cycle
+         call solve_step(gear, weights, motion, ending, solved)
+         growth = 0.3_dp
+         if (solved) then
+            changed = .false.
+            do flank = 1, gear%flanks
+               if (motion%flanks(flank)%in_nodes) cycle
+               if (.not. is_bent(gear%contact, motion%flanks(flank))) cycle
+               if (present(tangent)) call stiffen_tangent(gear%contact, motion%flanks(flank), tangent%flanks(flank))
+               call stiffen(gear%contact, motion%flanks(flank))
+               changed = .true.
+            end do
+            if (changed) cycle
+            error = error_of_step(gear, motion, order)/gear%choice%tolerance
+            growth = min(most_growth, max(0.2_dp, 0.85_dp*max(error, 1.0e-10_dp)**(-1.0_dp/real(order + 1, dp))))
+            if (.not. error > 1.0_dp) exit
          end if
-         changed = .false.
-         do flank = 1, gear%flanks
-            if (motion%flanks(flank)%in_nodes) cycle
-            if (.not. is_bent(contact, motion%flanks(flank))) cycle
-            if (present(tangent)) call stiffen_tangent(contact, motion%flanks(flank), tangent%flanks(flank))
-            call stiffen(contact, motion%flanks(flank))
-            changed = .true.
-         end do
-         if (changed) cycle
-         error = error_of_step(gear, motion, order)/choice%tolerance
-         growth = min(most_growth, max(0.2_dp, 0.85_dp*max(error, 1.0e-10_dp)**(-1.0_dp/real(order + 1, dp))))
-         if (error > 1.0_dp) then
-            motion%step = growth*(motion%time(0) - motion%time(1))
-            rejected = rejected + 1
-            if (motion%step < shortest_step) then
-               ending%status = status_film_cycles
-               return
-            end if
-            cycle
+         rejected = rejected + 1
+         if (.not. solved .and. rejected >= most_rejected) then
+            call tear_films(gear, motion, ending, changed, tangent)
+            if (ending%status /= status_complete) return
+            if (changed) rejected = 0
          end if
-         if (.not. at_end) then
-            motion%step = min(growth*motion%step, longest_step)
-         else
-            motion%step = min(max(motion%step, growth*left), longest_step)
+         motion%step = growth*(motion%time(0) - motion%time(1))
+         if (motion%step < shortest_step) then
+            ending%status = status_film_cycles
+            return
          end if
-         exit
       end do
-      if (present(tangent)) call advance_tangent(contact, motion%flanks(:gear%flanks), gear%mass, weights, tangent)
+      if (at_end) then
+         motion%step = min(max(motion%step, growth*left), longest_step)
+      else
+         motion%step = min(growth*motion%step, longest_step)
+      end if
+      if (present(tangent)) call advance_tangent(gear%contact, motion%flanks(:gear%flanks), gear%mass, weights, tangent)
       do flank = 1, gear%flanks
-         call accept_step(contact, motion%flanks(flank))
-         if (.not. may_soften(contact, motion%flanks(flank))) cycle
-         call soften(contact, motion%flanks(flank))
-         if (present(tangent)) call soften_tangent(contact, motion%flanks(flank), tangent%flanks(flank))
+         call accept_step(gear%contact, motion%flanks(flank))
+         if (may_soften(gear%contact, motion%flanks(flank))) call soften_film(gear, flank, motion, tangent)
       end do
       motion%position(1:) = motion%position(:kept_times - 1)
       motion%velocity(1:) = motion%velocity(:kept_times - 1)
@@ -247,8 +219,41 @@ contains
       motion%fastest = max(motion%fastest, abs(motion%velocity(1)))
       motion%known = min(motion%known + 1, kept_times + 1)
       motion%states(2:, :) = motion%states(1:kept_times - 1, :)
-      motion%states(1, :) = state_of(problem, gear, motion, 1)
+      motion%states(1, :) = state_of(gear, motion, 1)
    end subroutine take_step
+
+   !> Open cavities in films that open and carry next to nothing: they are those of rigid flanks again.
+   pure subroutine tear_films(gear, motion, ending, changed, tangent)
+      type(gear_t), intent(in) :: gear
+      type(motion_t), intent(inout) :: motion
+      type(ending_t), intent(inout) :: ending
+      !> Whether there is such a film
+      logical, intent(out) :: changed
+      type(nodal_tangent_t), intent(inout), optional :: tangent
+      integer :: flank
+
+      changed = .false.
+      do flank = 1, gear%flanks
+         associate (film => motion%flanks(flank))
+            if (.not. (film%in_nodes .and. film%load(1) < largest_floor .and. film%velocity(1) > 0.0_dp)) cycle
+         end associate
+         call soften_film(gear, flank, motion, tangent)
+         ending%count%cuts = ending%count%cuts + 1
+         changed = .true.
+      end do
+      if (changed .and. ending%count%cuts > most_torn*int(ending%periods + 1, int64)) ending%status = status_film_torn
+   end subroutine tear_films
+
+   !> From nodes to the closed form, with the neighbours.
+   pure subroutine soften_film(gear, flank, motion, tangent)
+      type(gear_t), intent(in) :: gear
+      integer, intent(in) :: flank
+      type(motion_t), intent(inout) :: motion
+      type(nodal_tangent_t), intent(inout), optional :: tangent
+
+      call soften(gear%contact, motion%flanks(flank))
+      if (present(tangent)) call soften_tangent(gear%contact, motion%flanks(flank), tangent%flanks(flank))
+   end subroutine soften_film
 
    !> Let times count from the start of the next period.
    pure subroutine begin_period(motion)
@@ -258,26 +263,18 @@ contains
       motion%time(1) = 0.0_dp
    end subroutine begin_period
 
-   !> Largest velocity so far [m/s].
-   pure real(dp) function fastest_of(gear, motion)
+   !> Relative distance of two states: of both films, and of velocities over the largest one so far.
+   pure real(dp) function distance_of_states(gear, motion, one, other) result(distance)
       type(gear_t), intent(in) :: gear
       type(motion_t), intent(in) :: motion
-
-      fastest_of = motion%fastest*gear%film_unit/gear%time_unit
-   end function fastest_of
-
-   !> Relative distance of two states: of both films, and of velocities over the largest one.
-   pure real(dp) function distance_of_states(problem, fastest, one, other) result(distance)
-      type(problem_t), intent(in) :: problem
-      !> Largest velocity [m/s]
-      real(dp), intent(in) :: fastest
       !> Numbers of a state
       real(dp), intent(in) :: one(:)
       !> Those of the other one
       real(dp), intent(in) :: other(:)
-      real(dp) :: films(2, contact_count(problem))
+      real(dp) :: films(2, contact_count(gear%problem)), fastest
 
-      films = films_of(problem, transpose(reshape([one, other], [size(one), 2])))
+      fastest = motion%fastest*gear%film_unit/gear%time_unit
+      films = films_of(gear%problem, transpose(reshape([one, other], [size(one), 2])))
       distance = max(abs(one(of_velocity) - other(of_velocity))/fastest, maxval(abs(films(1, :) - films(2, :))/films(2, :)))
    end function distance_of_states
 
@@ -307,21 +304,19 @@ contains
    end function weights_of
 
    !> Solve the equations of a step by Newton's method.
-   subroutine solve_step(problem, contact, gear, weights, motion, ending, solved)
-      type(problem_t), intent(in) :: problem
-      type(nodal_contact_t), intent(in) :: contact
+   subroutine solve_step(gear, weights, motion, ending, solved)
       type(gear_t), intent(in) :: gear
       type(step_weights_t), intent(in) :: weights
       type(motion_t), intent(inout) :: motion
       type(ending_t), intent(inout) :: ending
       logical, intent(out) :: solved
       real(dp) :: past_position, past_velocity, force, load(2), by_gap(2), correction, share, change, changes, scale
-      integer :: flank, pass
+      integer :: flank, iteration
 
       associate (a0 => weights%rate(0))
          past_position = dot_product(weights%rate(1:), motion%position(1:difference_times))
          past_velocity = dot_product(weights%rate(1:), motion%velocity(1:difference_times))
-         force = (force_at(problem%force, motion%time(0)) + problem%weight)/gear%load_unit
+         force = (force_at(gear%problem%force, motion%time(0)) + gear%problem%weight)/gear%load_unit
          motion%position(0) = dot_product(weights%guess, motion%position(1:))
          motion%guessed_velocity = dot_product(weights%guess, motion%velocity(1:))
          do flank = 1, gear%flanks
@@ -329,11 +324,11 @@ contains
             motion%flanks(flank)%gap(0) = merge(motion%position(0), gear%backlash - motion%position(0), flank == 1)
          end do
          solved = .false.
-         do pass = 1, most_passes
+         do iteration = 1, most_iterations
             load = 0.0_dp
             by_gap = 0.0_dp
             do flank = 1, gear%flanks
-               call respond(contact, pass > free_passes, motion%flanks(flank), load(flank), by_gap(flank), solved)
+               call respond(gear%contact, iteration > free_iterations, motion%flanks(flank), load(flank), by_gap(flank), solved)
                ending%count%evaluations = ending%count%evaluations + 1
                if (.not. solved) return
             end do
@@ -344,7 +339,7 @@ contains
             changes = 0.0_dp
             scale = huge(1.0_dp)
             do flank = 1, gear%flanks
-               call correct_flank(contact, share, merge(correction, -correction, flank == 1), motion%flanks(flank), change)
+               call correct_flank(gear%contact, share, merge(correction, -correction, flank == 1), motion%flanks(flank), change)
                changes = max(changes, change)
                scale = min(scale, motion%flanks(flank)%film(1))
             end do
@@ -355,7 +350,7 @@ contains
          if (.not. solved) return
          motion%velocity(0) = a0*motion%position(0) + past_position
          do flank = 1, gear%flanks
-            call finish_step(contact, weights, motion%flanks(flank))
+            call finish_step(gear%contact, weights, motion%flanks(flank))
             solved = solved .and. motion%flanks(flank)%film(0) > 0.0_dp
          end do
       end associate
@@ -368,8 +363,7 @@ contains
       integer, intent(in) :: order
       integer :: flank
 
-      error = abs(motion%velocity(0) - motion%guessed_velocity)/max(motion%fastest, abs(motion%velocity(0)), &
-                                                                    gear%velocity_floor)
+      error = abs(motion%velocity(0) - motion%guessed_velocity)/max(motion%fastest, abs(motion%velocity(0)), gear%velocity_floor)
       do flank = 1, gear%flanks
          associate (film => motion%flanks(flank))
             error = max(error, abs(film%load(0) - film%guessed_load)/(film%load(0) + gear%load_floor), &

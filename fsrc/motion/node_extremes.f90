@@ -69,7 +69,7 @@ contains
 
       call range_of(values, smallest, largest)
       call find_highest(1.0_dp, largest, largest - smallest, highest)
-      ! The largest pressure of the film is never asked where it is smallest.
+      ! Where the largest pressure of the film is smallest is never requested.
       if (quantity /= seen_pressure) call find_highest(-1.0_dp, -smallest, largest - smallest, lowest)
 
    contains
@@ -81,21 +81,18 @@ contains
          real(dp), intent(in) :: top
          real(dp), intent(in) :: range
          type(extreme_t), intent(inout) :: found
-         real(dp) :: level, estimate
-         real(dp) :: bounds(block_nodes)
-         integer :: peaks(block_nodes)
-         integer :: i, count_of_peaks
+         real(dp) :: level, bounds(block_nodes)
+         integer :: peaks(block_nodes), i, count_of_peaks
 
          level = top - between*range
          if (found%exists) level = max(level, sign_of*found%value - between*range)
          count_of_peaks = 0
          do i = 1, size(values)
             if (sign_of*values(i) < level) cycle
-            if (.not. is_peak(sign_of, i)) cycle
+            if (.not. is_peak(values, sign_of, i)) cycle
             count_of_peaks = count_of_peaks + 1
             peaks(count_of_peaks) = i
-            call estimate_peak(sign_of, i, estimate)
-            bounds(count_of_peaks) = max(estimate, sign_of*values(i)) + parabola_error*range_of_piece(i)
+            bounds(count_of_peaks) = bound_of_peak(values, sign_of, i)
          end do
          ! From the peak that may be the highest on, until none is left that may be higher than what was found.
          do while (count_of_peaks > 0)
@@ -109,42 +106,6 @@ contains
             count_of_peaks = count_of_peaks - 1
          end do
       end subroutine find_highest
-
-      !> Whether no node beside this one, of the same piece, is higher.
-      pure logical function is_peak(sign_of, i)
-         real(dp), intent(in) :: sign_of
-         integer, intent(in) :: i
-
-         is_peak = .true.
-         if (modulo(i - 1, nodes_per_piece) > 0) is_peak = sign_of*values(i - 1) <= sign_of*values(i)
-         if (is_peak .and. modulo(i, nodes_per_piece) > 0) is_peak = sign_of*values(i + 1) <= sign_of*values(i)
-      end function is_peak
-
-      !> Range of the nodes of the piece that a node belongs to.
-      pure real(dp) function range_of_piece(i)
-         integer, intent(in) :: i
-         integer :: before
-
-         before = nodes_per_piece*((i - 1)/nodes_per_piece)
-         associate (y => values(before + 1:before + nodes_per_piece))
-            range_of_piece = maxval(y) - minval(y)
-         end associate
-      end function range_of_piece
-
-      !> Highest value, within the piece, of the parabola through a node and its neighbours.
-      pure subroutine estimate_peak(sign_of, i, estimate)
-         real(dp), intent(in) :: sign_of
-         integer, intent(in) :: i
-         real(dp), intent(out) :: estimate
-         real(dp) :: x
-         integer :: middle, before
-
-         middle = min(max(modulo(i - 1, nodes_per_piece) + 1, 2), nodes_per_piece - 1)
-         before = nodes_per_piece*((i - 1)/nodes_per_piece)
-         associate (y => values(before + middle - 1:before + middle + 1))
-            call top_of_parabola(node_place(middle - 1:middle + 1), sign_of*y, x, estimate)
-         end associate
-      end subroutine estimate_peak
 
       !> Follow the peak near a place until it stands.
       pure subroutine renew(sign_of, i, range, found)
@@ -191,20 +152,6 @@ contains
                            exists=.true.)
       end subroutine renew
 
-      !> Keep a place as the best one so far.
-      pure subroutine keep(place, value, state, best_place, best, best_state)
-         real(dp), intent(in) :: place
-         real(dp), intent(in) :: value
-         real(dp), intent(in) :: state(:)
-         real(dp), intent(out) :: best_place
-         real(dp), intent(out) :: best
-         real(dp), intent(out) :: best_state(:)
-
-         best_place = place
-         best = value
-         best_state = state
-      end subroutine keep
-
       !> State and quantity at a place in a piece.
       pure subroutine evaluate(piece, x, state, quantity_there)
          integer, intent(in) :: piece
@@ -236,6 +183,47 @@ contains
       end subroutine evaluate
 
    end subroutine find_extremes
+
+   !> Whether no node beside one, of the same piece, is higher.
+   pure logical function is_peak(values, sign_of, i)
+      real(dp), contiguous, intent(in) :: values(:)
+      real(dp), intent(in) :: sign_of
+      integer, intent(in) :: i
+
+      is_peak = .true.
+      if (modulo(i - 1, nodes_per_piece) > 0) is_peak = sign_of*values(i - 1) <= sign_of*values(i)
+      if (is_peak .and. modulo(i, nodes_per_piece) > 0) is_peak = sign_of*values(i + 1) <= sign_of*values(i)
+   end function is_peak
+
+   !> What the peak at a node may rise to within its piece: the parabola through the node and its neighbours, and its error.
+   pure real(dp) function bound_of_peak(values, sign_of, i) result(bound)
+      real(dp), contiguous, intent(in) :: values(:)
+      real(dp), intent(in) :: sign_of
+      integer, intent(in) :: i
+      real(dp) :: x, estimate
+      integer :: middle, before
+
+      middle = min(max(modulo(i - 1, nodes_per_piece) + 1, 2), nodes_per_piece - 1)
+      before = nodes_per_piece*((i - 1)/nodes_per_piece)
+      associate (y => values(before + 1:before + nodes_per_piece))
+         call top_of_parabola(node_place(middle - 1:middle + 1), sign_of*y(middle - 1:middle + 1), x, estimate)
+         bound = max(estimate, sign_of*values(i)) + parabola_error*(maxval(y) - minval(y))
+      end associate
+   end function bound_of_peak
+
+   !> Keep a place as the best one so far.
+   pure subroutine keep(place, value, state, best_place, best, best_state)
+      real(dp), intent(in) :: place
+      real(dp), intent(in) :: value
+      real(dp), intent(in) :: state(:)
+      real(dp), intent(out) :: best_place
+      real(dp), intent(out) :: best
+      real(dp), intent(out) :: best_state(:)
+
+      best_place = place
+      best = value
+      best_state = state
+   end subroutine keep
 
    !> Code of what all contacts carry together: of a single one its load.
    pure integer function seen_net_load_of(problem)

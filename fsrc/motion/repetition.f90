@@ -1,4 +1,4 @@
-!> Does a motion repeat? It is asked in five ways, each for a purpose of its own (fsrc/THEORY.md, section 7):
+!> Does a motion repeat? It is looked for in five ways, each for a purpose of its own (fsrc/THEORY.md, section 7):
 !>
 !>    to the last bit        this module, `look_back`: the periods in between come again for ever and need not be computed;
 !>    within the accuracy    this module, `note_state`: a run until steady ends, with a bound of what the motion is still away;
@@ -179,8 +179,7 @@ contains
       do age = 1, 3
          older = state_of_age(watch, age*orbit)
          step = max(abs(newer - older), rounding*abs(newer))*sign(1.0_dp, newer - older)
-         creeping_distance = max(creeping_distance, abs(step(2) + settling%damping*step(1))/stiffness, &
-                                 abs(step(1))/sqrt(stiffness))
+         creeping_distance = max(creeping_distance, abs(step(2) + settling%damping*step(1))/stiffness, abs(step(1))/sqrt(stiffness))
          newer = older
       end do
       creeping_distance = creeping_distance/weight_of_film(watch, 3*orbit)

@@ -7,7 +7,8 @@ module reynolds_piezo_expansion
    use kinds, only: dp
    use lane_functions, only: coarse_log, half_block, lanes, log_of_one, octave, whole_below
    use lane_rows, only: interleave_rows
-   use piezo_viscous_cells, only: cell_degree, cell_size, cells, octave_pieces, peak_pieces, piece_size, side_pieces, sigma_cells
+   use piezo_viscous_cells, only: cell_degree, cell_size, cells, octave_pieces, peak_pieces, piece_size, side_pieces, &
+      sigma_cells
    implicit none(type, external)
    private
 
@@ -96,7 +97,7 @@ contains
       !> Its lanes
       integer, intent(in) :: first
       integer, intent(in) :: last
-      !> The films, A and B known
+      !> The films, with A and B
       type(reynolds_piezo_expansion_t), intent(inout) :: expansion
       !> Pieces by `coarse_log` of 2 + |A|, which is straight between powers of two, as the ends of the pieces are
       real(dp), parameter :: pieces_per_log = real(octave_pieces, dp)/octave, first_log = log_of_one + octave
@@ -161,8 +162,7 @@ contains
             do m = 0, count(highest_group_power >= k) - 1
                !GCC$ unroll 24
                do j = cell_degree - k - 1, m, -1
-                  c(l, first_coefficient(j) + k) = c(l, first_coefficient(j) + k) &
-                     + offset(l)*c(l, first_coefficient(j + 1) + k)
+                  c(l, first_coefficient(j) + k) = c(l, first_coefficient(j) + k) + offset(l)*c(l, first_coefficient(j + 1) + k)
                end do
             end do
          end do

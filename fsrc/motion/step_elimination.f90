@@ -21,8 +21,7 @@ module step_elimination
 contains
 
    !> Factors of a matrix, which is spent. Rows are exchanged for the largest pivot; all else goes down columns, four rows at a
-   !> time.
-   !> LAPACK's way takes twice as long for so few.
+   !> time. LAPACK's way takes twice as long for so few.
    pure subroutine factorise(last, filled, matrix, factors)
       !> Columns, and rows with those of zeros among them
       integer, intent(in) :: last

@@ -6,8 +6,7 @@
 module step_nodes
    use kinds, only: dp
    use lane_block, only: lane_block_t
-   use lane_inner, only: evaluate_inner, lane_inner_t
-   use lane_state, only: carried_numbers, numbers_of_lane, series_of_number
+   use lane_state, only: carried_numbers, evaluate_inner, sum_series, lane_inner_t, numbers_of_lane, series_of_number
    use problem, only: of_film, of_velocity
    use taylor_step_control, only: order
    implicit none(type, external)
@@ -23,7 +22,7 @@ module step_nodes
    !> Barycentric weights of interpolation, (-1)^i sqrt((1 - x^2) w) (Wang and Xiang 2012).
    real(dp), parameter :: barycentric(nodes_per_piece) = [-1.0_dp, 1.0_dp, -1.0_dp, 1.0_dp, -1.0_dp, 1.0_dp, -1.0_dp, 1.0_dp] &
                           *sqrt([(1.0_dp - place(4:1:-1)**2)*share(4:1:-1), (1.0_dp - place**2)*share])
-   !> Pieces for which there is folder at first.
+   !> Pieces for which there is room at first.
    integer, parameter :: first_room = 64
 
    !> Nodes of the steps of one period of one motion, piece after piece.
@@ -51,7 +50,7 @@ contains
       real(dp), intent(in) :: longest_piece
       !> Nodes of the period so far
       type(step_nodes_t), intent(inout) :: nodes
-      real(dp), dimension(nodes_per_piece) :: x, film, velocity, odd_film, odd_velocity
+      real(dp), dimension(nodes_per_piece) :: x, film, velocity, odd_film, odd_velocity, numbers
       real(dp) :: film_series(0:order), lienard_series(0:order), length
       integer :: pieces, piece, before, carried, i, k
 
@@ -91,8 +90,10 @@ contains
          nodes%length(nodes%pieces) = length
          nodes%states(before + 1:before + nodes_per_piece, of_film) = film*block%film_scale(lane)
          nodes%states(before + 1:before + nodes_per_piece, of_velocity) = velocity*block%velocity_scale(lane)
-         if (carried > 0) call take_carried(block, lane, x, nodes%states(before + 1:before + nodes_per_piece, &
-                                                                         of_velocity + 1:of_velocity + carried))
+         do k = 1, carried
+            call sum_series(nodes_per_piece, series_of_number(lane, k, block), x, numbers)
+            nodes%states(before + 1:before + nodes_per_piece, of_velocity + k) = numbers*block%film_scale(lane)
+         end do
          if (inner%count > 0) call evaluate_inner(inner, x, nodes%states(before + 1:before + nodes_per_piece, &
                                                                          of_velocity + carried + 1:))
       end do
@@ -114,27 +115,6 @@ contains
       nodes%start(nodes%pieces) = start
       nodes%length(nodes%pieces) = length
    end subroutine add_piece
-
-   !> Numbers of a lane that its block carries beside film and velocity.
-   pure subroutine take_carried(block, lane, x, values)
-      type(lane_block_t), intent(in) :: block
-      integer, intent(in) :: lane
-      !> Times since the step began [periods]
-      real(dp), intent(in) :: x(nodes_per_piece)
-      !> Node, number [m]
-      real(dp), intent(out) :: values(:, :)
-      real(dp) :: value(nodes_per_piece), series(0:order)
-      integer :: number, k
-
-      do number = 1, size(values, 2)
-         series = series_of_number(lane, number, block)
-         value = 0.0_dp
-         do k = order, 0, -1
-            value = value*x + series(k)
-         end do
-         values(:, number) = value*block%film_scale(lane)
-      end do
-   end subroutine take_carried
 
    !> See that so many pieces have their place.
    pure subroutine provide_room(nodes, pieces, numbers)

@@ -23,20 +23,22 @@ module taylor_step_control
    !> g of the header, one over the time a Lienard variable acts where nothing damps [1/periods]
    real(dp), parameter, public :: free_rate = 2.0_dp
 
+   !> Damping rate where there is no expansion: no step follows it [1/periods]
+   real(dp), parameter, public :: unfollowable_rate = 1.0e30_dp
+
    !> Relative error of the load that counts like one of the film
    real(dp), parameter, public :: load_error = 100.0_dp
 
    !> Signs of the velocity of the gear towards drive and coast flank, and of their loads on it
    real(dp), parameter, public :: sign_of(2) = [1.0_dp, -1.0_dp]
 
-   public :: lane_steps, evaluate_series, film_weight, lienard_weight
+   public :: lane_steps, evaluate_series, evaluate_slope, film_weight, lienard_weight
 
 contains
 
    !> Step of every lane. The last steps of a period are cut so that its end is hit, two of equal length
    !> rather than a long and a short one.
-   pure subroutine lane_steps(last_order, share, accuracy, force, thinner, film, lienard, damping_rate, &
-      remaining, limit, step)
+   pure subroutine lane_steps(last_order, share, accuracy, force, thinner, film, lienard, damping_rate, remaining, limit, step)
       !> Order n of the series
       integer, intent(in) :: last_order
       !> Share of the accuracy that a step may use up, over its length [1/periods]
@@ -97,11 +99,11 @@ contains
       !> P of the header [-]
       real(dp), intent(in) :: force
 
-      lienard_weight = max(1.0_dp/(free_rate + damping_rate), &
-         damping_rate*film_weight(film)/(load_error*force))
+      lienard_weight = max(1.0_dp/(free_rate + damping_rate), damping_rate*film_weight(film)/(load_error*force))
    end function lienard_weight
 
-   !> Sum of two series. Even and odd powers go apart: four short chains instead of two long ones.
+   !> Sum of two series, whose coefficients are zero where there are none. Even and odd powers go apart: four short chains instead of
+   !> two long ones.
    pure subroutine evaluate_series(film, lienard, x, film_sum, lienard_sum)
       !> Series of H [-], order last
       real(dp), intent(in) :: film(lanes, 0:order)
@@ -133,5 +135,29 @@ contains
          lienard_sum(l) = lienard(l, 0) + (lienard_even*square + lienard_odd*x(l))
       end do
    end subroutine evaluate_series
+
+   !> Slope of a series, in the same way.
+   pure subroutine evaluate_slope(series, x, slope)
+      !> Order last
+      real(dp), intent(in) :: series(lanes, 0:order)
+      !> Distance from the point of expansion [periods]
+      real(dp), intent(in) :: x(lanes)
+      !> Derivative of the sum there [1/periods]
+      real(dp), intent(out) :: slope(lanes)
+      real(dp) :: square, odd, even
+      integer :: l, k
+
+      !$omp simd private(square, odd, even, k)
+      do l = 1, lanes
+         square = x(l)*x(l)
+         odd = real(order, dp)*series(l, order)
+         even = real(order - 1, dp)*series(l, order - 1)
+         do k = order - 2, 2, -2
+            odd = odd*square + real(k, dp)*series(l, k)
+            even = even*square + real(k - 1, dp)*series(l, k - 1)
+         end do
+         slope(l) = even + odd*x(l)
+      end do
+   end subroutine evaluate_slope
 
 end module taylor_step_control

@@ -1,5 +1,5 @@
-!> What the steps of a window tell, whatever samples are taken of it: the extremes of the motion, the sums by which the
-!> window must close, and, where they are asked for, its Fourier integrals (fsrc/THEORY.md, sections 8 and 11).
+!> Record of the steps of a window, whatever samples are taken of it: the extremes of the motion, the sums by which the
+!> window must close, and, where they are requested, its Fourier integrals (fsrc/THEORY.md, sections 8 and 11).
 !>
 !> An impact may be a millionth of a period long. The steps of the engine follow it, equidistant samples do not; by parts, the
 !> velocity of an impact is a step, and no integral misses it.
@@ -24,11 +24,11 @@ module window_record
 
    !> Record of a window.
    type, public :: window_record_t
-      !> What is asked for: which extremes, by the codes of node_extremes, and the highest multiple of the frequency that Fourier
+      !> What is requested: which extremes, by the codes of node_extremes, and the highest multiple of the frequency that Fourier
       !> coefficients are wanted for, 0: none
       logical :: wants(seen_quantities) = .true.
       integer :: multiples = 0
-      !> Impacts, where its limit asks for them, and for how long the drive film is unloaded
+      !> Impacts, where there is a limit for them, and for how long the drive film is unloaded
       type(load_record_t) :: loads = load_record_t()
       !> Longest piece of a step, by the multiples [periods]
       real(dp) :: longest_piece = 1.0_dp
@@ -70,11 +70,10 @@ module window_record
 
 contains
 
-   !> Start a record where its window begins. What is asked for stays.
+   !> Start a record where its window begins. What is requested stays.
    pure subroutine start_record(start, record)
       !> State there
       type(motion_state_t), intent(in) :: start
-      !> The record
       type(window_record_t), intent(inout) :: record
 
       record = window_record_t(wants=record%wants, multiples=record%multiples, &

@@ -19,7 +19,7 @@ module lyapunov
    !> Periods that a motion and its neighbour are followed, in stretches. After each of these it is seen whether they part at all.
    integer, parameter, public :: stretch_periods = 25
    integer, parameter :: stretches = 4
-   !> Periods of a block, whose means tell the statistical error of the exponent.
+   !> Periods of a block, whose means give the statistical error of the exponent.
    integer, parameter :: block_periods = 5
    !> Periods in which the neighbour turns into the direction that grows most: they do not count.
    integer, parameter, public :: turning_periods = 5
@@ -30,7 +30,7 @@ module lyapunov
    !> Standard errors by which an exponent has to differ from 0.
    real(dp), parameter :: least_errors = 2.0_dp
 
-   !> Periods that a motion has to be followed to be told irregular.
+   !> Periods that a motion has to be followed to be reported irregular.
    integer, parameter, public :: followed_periods = stretches*stretch_periods
 
    !> How a motion and its neighbour part.
@@ -40,7 +40,7 @@ module lyapunov
       !> Lyapunov exponent a period of the force, and its standard error [-]
       real(dp) :: exponent = 0.0_dp
       real(dp) :: standard_error = 0.0_dp
-      !> Whether they part for good: the exponent is positive beyond its error, over all periods asked for
+      !> Whether they part for good: the exponent is positive beyond its error, over all periods requested
       logical :: for_good = .false.
       !> Whether the time of the scene was over before all of these periods
       logical :: out_of_time = .false.
@@ -84,7 +84,7 @@ contains
       do period = -turning_periods + 1, followed_periods
          if (size(left) == 0 .or. must_stop()) return
          apart = .false.
-         call pass_period(problems, left, here, displacements, apart)
+         call carry_period(problems, left, here, displacements, apart)
          left = pack(left, apart(left))
          do i = 1, size(left)
             associate (place => left(i))
@@ -105,7 +105,7 @@ contains
    end subroutine follow_neighbours
 
    !> Carry motions and their displacements through a period: those that have tangents with these, the others beside a neighbour.
-   subroutine pass_period(problems, left, here, displacements, passed)
+   subroutine carry_period(problems, left, here, displacements, passed)
       !> What moves, and which of it
       type(problem_t), intent(in) :: problems(:)
       integer, intent(in) :: left(:)
@@ -128,8 +128,7 @@ contains
       beside = pack(left,.not. has_tangents(problems(left), here(left), map_accuracy))
       n = size(along)
       moved = displacements(:, :, along)
-      if (n > 0) call solve_motions(problems(along), here(along), one_period, none(:, :, :n), endings(:n), &
-                                    displacements=moved)
+      if (n > 0) call solve_motions(problems(along), here(along), one_period, none(:, :, :n), endings(:n), displacements=moved)
       do i = 1, n
          associate (place => along(i))
             passed(place) = endings(i)%status == status_complete
@@ -152,7 +151,7 @@ contains
             displacements(:size(motion%numbers), 1, place) = neighbour%numbers - motion%numbers
          end associate
       end do
-   end subroutine pass_period
+   end subroutine carry_period
 
    !> What the growth of the distance over the periods says. An exponent counts as positive if it is so by two standard errors, in
    !> each half of the periods, and in the last stretch: a motion that settles meanwhile parts from its neighbour only before.
@@ -192,7 +191,7 @@ contains
 
       direction = displacement/sizes_of(problem, motion)
       farthest = maxval(abs(direction))
-      ! Neighbours that have met tell no direction: what is left of their distance is less than the errors.
+      ! Neighbours that have met give no direction: what is left of their distance is less than the errors.
       if (.not. farthest > map_accuracy*distance) then
          farthest = map_accuracy*distance
          direction = farthest

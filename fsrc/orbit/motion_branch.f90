@@ -33,6 +33,8 @@ module motion_branch
    !> Where the end of a branch is: to this share of the range and of the sizes; and most trials of that search.
    real(dp), parameter :: end_resolution = 1.0e-9_dp
    integer, parameter :: most_trials = 60
+   !> What comes to zero there: the direction of the branch, or its stability
+   integer, parameter :: of_direction = 1, of_stability = 2
    !> A multiplier of a point that is known to this is taken to be beyond the unit circle: points next to a fold have one near 1.
    real(dp), parameter :: beyond_circle = 1.0e-4_dp
    !> Next to a loss of stability nearer than this share of the range the kind of a motion is not known.
@@ -40,6 +42,11 @@ module motion_branch
 
    !> Maps along a key, the states that they take, and what kind of motion is followed.
    type, abstract, public :: motion_family_t
+      private
+      !> Of the branch under way: periods of the force after which its motions repeat, 1 or -1 to larger or smaller values of the key,
+      !> and what the numbers of states count as along it, each in its unit
+      integer :: periods = 1, direction = 1
+      real(dp), allocatable :: units(:)
    contains
       procedure(map_at_shares), deferred :: map
       procedure(sizes_at), deferred :: sizes
@@ -128,15 +135,17 @@ contains
       real(dp), intent(in) :: first_step
       type(branch_end_t) :: ending
       type(branch_point_t) :: here, next
-      real(dp) :: units(size(state)), step, cosine, bound
+      real(dp) :: step, cosine, bound
       integer :: steps
       logical :: found, ends
 
-      units = max(family%sizes(share, state), abs(state))
+      family%periods = periods
+      family%direction = direction
+      family%units = max(family%sizes(share, state), abs(state))
       ending%point%share = share
       ending%point%state = state
       allocate (ending%points(0))
-      here = point_at(family, periods, units, share, state, direction, found)
+      here = point_on(family, share, state, found)
       if (.not. found) return
       if (growth(here) > 0.0_dp) return
       if (.not. family%keeps_kind(periods, here%share, here%state)) return
@@ -150,7 +159,7 @@ contains
          ending%code = end_lost
          do
             if (step < shortest_step) return
-            call advance(family, periods, units, direction, here, step, bound, next, found)
+            call advance(family, here, step, bound, next, found)
             if (found) then
                cosine = dot_product(here%tangent, next%tangent)
                if (cosine >= least_cosine .and. abs(growth(next) - growth(here)) <= largest_change) exit
@@ -159,7 +168,7 @@ contains
             end if
             step = 0.5_dp*step
          end do
-         call find_end(family, periods, units, direction, here, next, ending, ends)
+         call find_end(family, here, next, ending, ends)
          if (ends) return
          here = next
          step = min(2.0_dp*step, longest_step, longest_key_step/max(abs(here%tangent(size(here%tangent))), 1.0e-3_dp))
@@ -168,12 +177,8 @@ contains
    end function follow_branch
 
    !> The next motion of a branch, on its bound if that is nearer.
-   subroutine advance(family, periods, units, direction, here, step, bound, next, found)
+   subroutine advance(family, here, step, bound, next, found)
       class(motion_family_t), intent(inout) :: family
-      integer, intent(in) :: periods
-      !> What the numbers of states count as along this branch, each in its unit
-      real(dp), intent(in) :: units(:)
-      integer, intent(in) :: direction
       type(branch_point_t), intent(in) :: here
       !> Length along the tangent [-]
       real(dp), intent(in) :: step
@@ -185,18 +190,18 @@ contains
       logical :: at_bound
       integer :: n
 
-      n = size(units)
+      n = size(family%units)
       length = step
-      associate (along_key => real(direction, dp)*here%tangent(n + 1), left => abs(bound - here%share))
+      associate (along_key => real(family%direction, dp)*here%tangent(n + 1), left => abs(bound - here%share))
          at_bound = along_key*step >= left
          if (at_bound) length = left/along_key
       end associate
-      next%state = here%state + length*here%tangent(:n)*units
+      next%state = here%state + length*here%tangent(:n)*family%units
       next%share = here%share + length*here%tangent(n + 1)
       if (at_bound) then
-         next = point_at(family, periods, units, bound, next%state, direction, found)
+         next = point_on(family, bound, next%state, found)
       else
-         call correct(family, periods, units, here%tangent, .false., next, found)
+         call correct(family, here%tangent, .false., next, found)
          ! A branch that turns within its last step may leave the range and come back.
          if (found) found = next%share >= 0.0_dp .and. next%share <= 1.0_dp
       end if
@@ -204,33 +209,29 @@ contains
 
    !> Whether a branch ends between two of its motions, and where: first where it turns back, then where it loses stability
    !> before that, then where it loses its kind before that.
-   subroutine find_end(family, periods, units, direction, here, next, ending, ends)
+   subroutine find_end(family, here, next, ending, ends)
       class(motion_family_t), intent(inout) :: family
-      integer, intent(in) :: periods
-      real(dp), intent(in) :: units(:)
-      integer, intent(in) :: direction
       type(branch_point_t), intent(in) :: here
       type(branch_point_t), intent(in) :: next
       type(branch_end_t), intent(inout) :: ending
       logical, intent(out) :: ends
       type(branch_point_t) :: last, last_of_kind
       integer :: code
-      integer, parameter :: of_direction = 1, of_stability = 2
 
       last = next
       code = 0
-      if (measure(of_direction, next) <= 0.0_dp) then
-         call narrow(of_direction, here, last)
+      if (margin(family, of_direction, next) <= 0.0_dp) then
+         call narrow(family, of_direction, here, last)
          code = end_fold
       end if
       if (growth(last) > merge(beyond_circle, 0.0_dp, code == end_fold)) then
-         call narrow(of_stability, here, last)
+         call narrow(family, of_stability, here, last)
          code = code_of(last)
       end if
       ends = code /= 0
-      if (.not. family%keeps_kind(periods, last%share, last%state)) then
+      if (.not. family%keeps_kind(family%periods, last%share, last%state)) then
          last_of_kind = last
-         call narrow_kind(here,.not. ends, last_of_kind)
+         call narrow_kind(family, here,.not. ends, last_of_kind)
          ! Where stability is lost, a motion that is followed less accurately may leave what it should be judged by.
          if (.not. ends .or. abs(last_of_kind%share - last%share) > unsure_kind) then
             code = end_of_kind
@@ -242,125 +243,127 @@ contains
       ending%code = code
       ending%point = last
       ending%points = [ending%points, last]
-
-   contains
-
-      !> Above zero before the branch turns back, or where its motion is stable [-].
-      pure real(dp) function measure(what, point)
-         integer, intent(in) :: what
-         type(branch_point_t), intent(in) :: point
-
-         if (what == of_direction) then
-            measure = real(direction, dp)*point%tangent(size(point%tangent))
-         else
-            measure = -growth(point)
-         end if
-      end function measure
-
-      !> The last motion before a measure that is above zero here and not there comes to zero: false position, with halves of
-      !> the weight of an end that stays (Illinois).
-      subroutine narrow(what, from, to)
-         !> of_direction or of_stability
-         integer, intent(in) :: what
-         type(branch_point_t), intent(in) :: from
-         !> Where the measure is not above zero; replaced by the last motion where it is
-         type(branch_point_t), intent(inout) :: to
-         type(branch_point_t) :: low, trial
-         real(dp) :: places(2), values(2), length, place
-         integer :: trials, kept
-         logical :: found
-
-         length = distance(from, to)
-         low = from
-         places = [0.0_dp, length]
-         values = [measure(what, from), measure(what, to)]
-         kept = 0
-         do trials = 1, most_trials
-            if (places(2) - places(1) <= end_resolution) exit
-            place = places(1) + (places(2) - places(1))*values(1)/(values(1) - values(2))
-            ! Both ends come near: a trial stands beside the end by a share of the resolution at least.
-            place = max(places(1) + 0.3_dp*end_resolution, min(place, places(2) - 0.3_dp*end_resolution))
-            trial = between(from, place, found)
-            if (.not. found) then
-               place = 0.5_dp*(places(1) + places(2))
-               trial = between(from, place, found)
-               if (.not. found) exit
-            end if
-            if (measure(what, trial) > 0.0_dp) then
-               low = trial
-               places(1) = place
-               values(1) = measure(what, trial)
-               if (kept == 2) values(2) = 0.5_dp*values(2)
-               kept = 2
-            else
-               places(2) = place
-               values(2) = measure(what, trial)
-               if (kept == 1) values(1) = 0.5_dp*values(1)
-               kept = 1
-            end if
-         end do
-         to = low
-      end subroutine narrow
-
-      !> The last motion of the kind, by halves. Where all motions are stable, a state between both leads to the one there by itself.
-      subroutine narrow_kind(from, stable, to)
-         type(branch_point_t), intent(in) :: from
-         !> Whether all motions from one to the other are stable
-         logical, intent(in) :: stable
-         !> A motion that is not of the kind; replaced by the last one that is
-         type(branch_point_t), intent(inout) :: to
-         type(branch_point_t) :: low, trial
-         real(dp) :: places(2), shares(2), place, length
-         integer :: trials
-         logical :: found
-
-         low = from
-         length = distance(from, to)
-         places = [0.0_dp, length]
-         shares = [from%share, to%share]
-         do trials = 1, most_trials
-            if (abs(shares(2) - shares(1)) <= end_resolution .or. places(2) - places(1) <= end_resolution) exit
-            place = 0.5_dp*(places(1) + places(2))
-            if (stable) then
-               trial%share = from%share + (to%share - from%share)*(place/length)
-               trial%state = from%state + (to%state - from%state)*(place/length)
-            else
-               trial = between(from, place, found)
-               if (.not. found) exit
-            end if
-            if (family%keeps_kind(periods, trial%share, trial%state)) then
-               low = trial
-               places(1) = place
-               shares(1) = trial%share
-            else
-               places(2) = place
-               shares(2) = trial%share
-            end if
-         end do
-         if (stable) low = point_at(family, periods, units, low%share, low%state, direction, found)
-         to = low
-      end subroutine narrow_kind
-
-      !> Way from a motion to another along the tangent of the first [-].
-      real(dp) function distance(from, to)
-         type(branch_point_t), intent(in) :: from
-         type(branch_point_t), intent(in) :: to
-
-         distance = dot_product(from%tangent, [(to%state - from%state)/units, to%share - from%share])
-      end function distance
-
-      !> The motion of the branch some way along the tangent of another.
-      type(branch_point_t) function between(from, length, found) result(point)
-         type(branch_point_t), intent(in) :: from
-         real(dp), intent(in) :: length
-         logical, intent(out) :: found
-
-         allocate (point%state, source=from%state + length*from%tangent(:size(units))*units)
-         point%share = from%share + length*from%tangent(size(units) + 1)
-         call correct(family, periods, units, from%tangent, .true., point, found)
-      end function between
-
    end subroutine find_end
+
+   !> Above zero before the branch turns back, or where its motion is stable [-].
+   pure real(dp) function margin(family, what, point)
+      class(motion_family_t), intent(in) :: family
+      !> of_direction or of_stability
+      integer, intent(in) :: what
+      type(branch_point_t), intent(in) :: point
+
+      margin = -growth(point)
+      if (what == of_direction) margin = real(family%direction, dp)*point%tangent(size(point%tangent))
+   end function margin
+
+   !> The last motion before a margin that is above zero here and not there comes to zero: false position, with halves of
+   !> the weight of an end that stays (Illinois).
+   subroutine narrow(family, what, from, to)
+      class(motion_family_t), intent(inout) :: family
+      !> of_direction or of_stability
+      integer, intent(in) :: what
+      type(branch_point_t), intent(in) :: from
+      !> Where the margin is not above zero; replaced by the last motion where it is
+      type(branch_point_t), intent(inout) :: to
+      type(branch_point_t) :: low, trial
+      real(dp) :: places(2), values(2), length, place
+      integer :: trials, kept
+      logical :: found
+
+      length = distance(family, from, to)
+      low = from
+      places = [0.0_dp, length]
+      values = [margin(family, what, from), margin(family, what, to)]
+      kept = 0
+      do trials = 1, most_trials
+         if (places(2) - places(1) <= end_resolution) exit
+         place = places(1) + (places(2) - places(1))*values(1)/(values(1) - values(2))
+         ! Both ends come near: a trial stands beside the end by a share of the resolution at least.
+         place = max(places(1) + 0.3_dp*end_resolution, min(place, places(2) - 0.3_dp*end_resolution))
+         trial = between(family, from, place, found)
+         if (.not. found) then
+            place = 0.5_dp*(places(1) + places(2))
+            trial = between(family, from, place, found)
+            if (.not. found) exit
+         end if
+         if (margin(family, what, trial) > 0.0_dp) then
+            low = trial
+            places(1) = place
+            values(1) = margin(family, what, trial)
+            if (kept == 2) values(2) = 0.5_dp*values(2)
+            kept = 2
+         else
+            places(2) = place
+            values(2) = margin(family, what, trial)
+            if (kept == 1) values(1) = 0.5_dp*values(1)
+            kept = 1
+         end if
+      end do
+      to = low
+   end subroutine narrow
+
+   !> The last motion of the kind, by halves. Where all motions are stable, a state between both leads to the one there by itself.
+   subroutine narrow_kind(family, from, stable, to)
+      class(motion_family_t), intent(inout) :: family
+      type(branch_point_t), intent(in) :: from
+      !> Whether all motions from one to the other are stable
+      logical, intent(in) :: stable
+      !> A motion that is not of the kind; replaced by the last one that is
+      type(branch_point_t), intent(inout) :: to
+      type(branch_point_t) :: low, trial
+      real(dp) :: places(2), shares(2), place, length
+      integer :: trials
+      logical :: found
+
+      low = from
+      length = distance(family, from, to)
+      places = [0.0_dp, length]
+      shares = [from%share, to%share]
+      do trials = 1, most_trials
+         if (abs(shares(2) - shares(1)) <= end_resolution .or. places(2) - places(1) <= end_resolution) exit
+         place = 0.5_dp*(places(1) + places(2))
+         if (stable) then
+            trial%share = from%share + (to%share - from%share)*(place/length)
+            trial%state = from%state + (to%state - from%state)*(place/length)
+         else
+            trial = between(family, from, place, found)
+            if (.not. found) exit
+         end if
+         if (family%keeps_kind(family%periods, trial%share, trial%state)) then
+            low = trial
+            places(1) = place
+            shares(1) = trial%share
+         else
+            places(2) = place
+            shares(2) = trial%share
+         end if
+      end do
+      if (stable) low = point_on(family, low%share, low%state, found)
+      to = low
+   end subroutine narrow_kind
+
+   !> Distance from a motion to another along the tangent of the first [-].
+   pure real(dp) function distance(family, from, to)
+      class(motion_family_t), intent(in) :: family
+      type(branch_point_t), intent(in) :: from
+      type(branch_point_t), intent(in) :: to
+
+      distance = dot_product(from%tangent, [(to%state - from%state)/family%units, to%share - from%share])
+   end function distance
+
+   !> The motion of the branch at some length along the tangent of another.
+   type(branch_point_t) function between(family, from, length, found) result(point)
+      class(motion_family_t), intent(inout) :: family
+      type(branch_point_t), intent(in) :: from
+      real(dp), intent(in) :: length
+      logical, intent(out) :: found
+
+      associate (n => size(family%units))
+         allocate (point%state, source=from%state + length*from%tangent(:n)*family%units)
+         point%share = from%share + length*from%tangent(n + 1)
+      end associate
+      call correct(family, from%tangent, .true., point, found)
+   end function between
 
    !> How the last motion of a branch loses its stability.
    pure integer function code_of(point)
@@ -397,21 +400,32 @@ contains
       !> Whether there is one
       logical, intent(out) :: found
       type(branch_point_t) :: point
+
+      family%periods = periods
+      family%direction = direction
+      family%units = units
+      point = point_on(family, share, state, found)
+   end function point_at
+
+   !> The same on the branch under way.
+   type(branch_point_t) function point_on(family, share, state, found) result(point)
+      class(motion_family_t), intent(inout) :: family
+      real(dp), intent(in) :: share
+      real(dp), intent(in) :: state(:)
+      logical, intent(out) :: found
       real(dp) :: along_key(size(state) + 1)
 
       along_key = 0.0_dp
-      along_key(size(along_key)) = real(direction, dp)
+      along_key(size(along_key)) = real(family%direction, dp)
       point%share = share
       allocate (point%state, source=state)
-      call correct(family, periods, units, along_key, .false., point, found)
-   end function point_at
+      call correct(family, along_key, .false., point, found)
+   end function point_on
 
    !> Newton's method on state and key together, in the plane through a point across a direction. The slopes at the point that is
    !> found give its multipliers and the tangent.
-   subroutine correct(family, periods, units, normal, strict, point, found)
+   subroutine correct(family, normal, strict, point, found)
       class(motion_family_t), intent(inout) :: family
-      integer, intent(in) :: periods
-      real(dp), intent(in) :: units(:)
       !> Direction across the plane, of length 1
       real(dp), intent(in) :: normal(:)
       !> Whether multipliers and tangent are those of the point itself, and not of the one before its last correction
@@ -419,19 +433,20 @@ contains
       !> A state and a place near a motion; replaced by it
       type(branch_point_t), intent(inout) :: point
       logical, intent(out) :: found
-      real(dp) :: jacobian(size(units), size(units)), by_key(size(units)), residual(size(units))
-      real(dp), dimension(size(units) + 1, size(units) + 1) :: matrix
-      real(dp) :: solution(size(units) + 1, 2), sizes(size(units)), moved, moved_before, next_move
+      real(dp) :: jacobian(size(normal) - 1, size(normal) - 1), matrix(size(normal), size(normal)), solution(size(normal), 2)
+      real(dp), dimension(size(normal) - 1) :: by_key, residual, sizes, units
+      real(dp) :: moved, moved_before, next_move
       integer :: corrections, i, n
       logical :: mapped, solved
 
+      units = family%units
       n = size(units)
       found = .false.
       moved = huge(moved)
       do corrections = 1, most_corrections
          sizes = family%sizes(point%share, point%state)
          if (.not. all(sizes > 0.0_dp)) return
-         call slopes(family, periods, sizes, point, residual, jacobian, by_key, mapped)
+         call slopes(family, sizes, point, residual, jacobian, by_key, mapped)
          if (.not. mapped) return
          do i = 1, n
             matrix(:n, i) = jacobian(:, i)*units(i)/units
@@ -464,9 +479,8 @@ contains
    end subroutine correct
 
    !> Image of a state less the state, and the slopes of the map by state and key, by central differences.
-   subroutine slopes(family, periods, sizes, point, residual, jacobian, by_key, mapped)
+   subroutine slopes(family, sizes, point, residual, jacobian, by_key, mapped)
       class(motion_family_t), intent(inout) :: family
-      integer, intent(in) :: periods
       !> What the numbers of the state count as, each in its unit
       real(dp), intent(in) :: sizes(:)
       type(branch_point_t), intent(in) :: point
@@ -491,7 +505,7 @@ contains
       shares(2*n + 2) = max(0.0_dp, min(1.0_dp, point%share - key_step))
       mapped = shares(2*n + 1) > shares(2*n + 2)
       if (.not. mapped) return
-      call family%map(periods, map_accuracy, shares, states, mapped)
+      call family%map(family%periods, map_accuracy, shares, states, mapped)
       if (.not. mapped) return
       residual = states(:, 0) - point%state
       do i = 1, n

@@ -1,22 +1,19 @@
 !> The periodic motion next to a motion in nodes of pressure, its Floquet multipliers, and whether neighbours of a motion that does
 !> not repeat leave it for good.
 !>
-!> The state of such a motion has all pressures in it, but after a period only what has become of position and velocity of the gear is
-!> left of a disturbance: the film that the disturbance met is gone. Two neighbours (module nodal_tangent) are followed through a
-!> period first, so that their pressures are those that belong to their gears; then their positions and velocities at both ends of
-!> the next one tell the two multipliers that count, X(end) = J X(start), and the others are as nothing beside these. It is seen
-!> that the periods after tell the same. Newton's correction, (X(end) - X(start)) a = start - end, is applied to all histories.
+!> Two neighbours (module nodal_tangent) are followed through a period first, so that their pressures are those that belong to their
+!> gears; then their positions and velocities at both ends of the next one, X(end) = J X(start), give the two multipliers that count
+!> (fsrc/THEORY.md, section 10).
 module nodal_orbit
    use constants, only: two_pi
    use engine, only: ending_t
    use kinds, only: dp
    use linear_equations, only: eigenvalues, solve_linear
    use lyapunov, only: draws_near, followed_periods, parting_of, parting_t, stretch_periods, turning_periods
-   use nodal_flank, only: nodal_contact_t
    use nodal_film, only: smallest_film
    use nodal_state, only: unpack_motion
-   use nodal_step, only: begin_period, distance_of_states, fastest_of, gear_t, is_late, most_steps, motion_t, nodal_choice_t, &
-                         set_up, state_of, take_step
+   use nodal_step, only: begin_period, distance_of_states, gear_t, is_late, most_steps, motion_t, nodal_choice_t, set_up, &
+      state_of, take_step
    use nodal_tangent, only: combine, displace, neighbours, nodal_tangent_t, start_tangent
    use periodic_orbit, only: longest_period, periodic_orbit_t
    use problem, only: problem_t
@@ -25,7 +22,7 @@ module nodal_orbit
    implicit none(type, external)
    private
 
-   !> Tolerance of the steps over that of the motion, and the least one: the correction of Newton's passes is 1e-7
+   !> Tolerance of the steps over that of the motion, and the least one: the correction of Newton's iterations is 1e-7
    real(dp), parameter :: tighter = 0.1_dp, least_tolerance = 1.0e-5_dp
    !> Correction with which a periodic motion is found, over the tolerance of the steps
    real(dp), parameter :: converged = 2.0_dp
@@ -34,8 +31,8 @@ module nodal_orbit
    !> Periods of the motion until then
    integer, parameter :: most_rounds = 12
 
-   !> What is known of a periodic motion next to another motion: nothing was asked for, it was found, or why it was not.
-   integer, parameter, public :: orbit_unasked = 0, orbit_found = 1, orbit_none_near = 2, orbit_not_followed = 3, &
+   !> Outcome of the search for a periodic motion next to another motion: none requested, it was found, or why it was not.
+   integer, parameter, public :: orbit_not_requested = 0, orbit_found = 1, orbit_none_near = 2, orbit_not_followed = 3, &
                                  orbit_not_settled = 4, orbit_out_of_time = 5
 
    public :: find_nodal_orbit, follow_nodal_neighbours, orbit_sentence
@@ -56,7 +53,6 @@ contains
       !> One of those above
       integer, intent(out) :: outcome
       type(nodal_choice_t) :: tight
-      type(nodal_contact_t) :: contact
       type(gear_t) :: gear
       type(motion_t) :: start, motion
       type(ending_t) :: ending
@@ -64,25 +60,25 @@ contains
 
       tight = choice
       tight%tolerance = min(choice%tolerance, max(tighter*choice%tolerance, least_tolerance))
-      call set_up(problem, tight, contact, gear)
+      call set_up(problem, tight, gear)
       call unpack_motion(problem, choice%nodes, numbers, start)
       outcome = orbit_none_near
       motion = start
       do period = 1, longest_period
          if (is_late(choice)) outcome = orbit_out_of_time
          if (outcome == orbit_out_of_time .or. must_stop()) return
-         call follow_period(problem, contact, gear, tight, motion, ending)
+         call follow_period(gear, motion, ending)
          if (ending%status /= status_complete) then
             outcome = orbit_not_followed
             return
          end if
-         if (distance_of_states(problem, fastest_of(gear, start), motion%states(1, :), start%states(1, :)) > nearness) cycle
-         call newton(problem, contact, gear, tight, period, start, nearness, orbit, outcome)
+         if (distance_of_states(gear, start, motion%states(1, :), start%states(1, :)) > nearness) cycle
+         call newton(gear, period, start, nearness, orbit, outcome)
          if (outcome == orbit_found) return
       end do
    end subroutine find_nodal_orbit
 
-   !> Why there are no Floquet multipliers, nothing where there are some or none were asked for.
+   !> Why there are no Floquet multipliers, nothing where there are some or none were requested.
    pure function orbit_sentence(outcome) result(sentence)
       !> One of those above
       integer, intent(in) :: outcome
@@ -103,11 +99,8 @@ contains
    end function orbit_sentence
 
    !> Newton's method on the map of some periods.
-   subroutine newton(problem, contact, gear, choice, period, start, nearness, orbit, outcome)
-      type(problem_t), intent(in) :: problem
-      type(nodal_contact_t), intent(in) :: contact
+   subroutine newton(gear, period, start, nearness, orbit, outcome)
       type(gear_t), intent(in) :: gear
-      type(nodal_choice_t), intent(in) :: choice
       integer, intent(in) :: period
       !> Where it begins
       type(motion_t), intent(in) :: start
@@ -125,17 +118,17 @@ contains
       logical :: solved
 
       motion = start
-      call start_tangent(contact, motion%flanks(:gear%flanks), motion%time*gear%period, tangent)
+      call start_tangent(gear%contact, motion%flanks(:gear%flanks), motion%time*gear%period, tangent)
       allocate (earlier(0), multipliers(0))
       do round = 0, most_rounds
          before = state_of_neighbours(gear, tangent)
          first = [motion%position(1), motion%velocity(1)]
          do i = 1, period
             outcome = orbit_out_of_time
-            if (is_late(choice)) return
+            if (is_late(gear%choice)) return
             outcome = orbit_not_followed
             if (must_stop()) return
-            call follow_period(problem, contact, gear, choice, motion, ending, tangent)
+            call follow_period(gear, motion, ending, tangent)
             if (ending%status /= status_complete .or. .not. tangent%exists) return
          end do
          after = state_of_neighbours(gear, tangent)
@@ -150,12 +143,12 @@ contains
             call solve_linear(before - after, left, solved)
             if (.not. solved) return
             ended = motion%states(1, :)
-            call move_to(problem, contact, gear, tangent, left(:, 1), motion)
-            moved = distance_of_states(problem, fastest_of(gear, motion), motion%states(1, :), ended)
-            orbit%distance = distance_of_states(problem, fastest_of(gear, motion), motion%states(1, :), start%states(1, :))
+            call move_to(gear, tangent, left(:, 1), motion)
+            moved = distance_of_states(gear, motion, motion%states(1, :), ended)
+            orbit%distance = distance_of_states(gear, motion, motion%states(1, :), start%states(1, :))
             if (max(moved, orbit%distance) > nearness) outcome = orbit_none_near
             if (outcome == orbit_none_near) return
-            if (moved <= converged*choice%tolerance .and. are_same(multipliers, earlier)) then
+            if (moved <= converged*gear%choice%tolerance .and. are_same(multipliers, earlier)) then
                orbit%period = period
                orbit%state = motion%states(1, :)
                orbit%multipliers = multipliers
@@ -225,9 +218,7 @@ contains
    end function state_of_neighbours
 
    !> Let a motion go on as a combination of its neighbours.
-   pure subroutine move_to(problem, contact, gear, tangent, shares, motion)
-      type(problem_t), intent(in) :: problem
-      type(nodal_contact_t), intent(in) :: contact
+   pure subroutine move_to(gear, tangent, shares, motion)
       type(gear_t), intent(in) :: gear
       type(nodal_tangent_t), intent(in) :: tangent
       real(dp), intent(in) :: shares(neighbours)
@@ -238,25 +229,22 @@ contains
       motion%velocity(1:) = motion%velocity(1:) + matmul(tangent%velocity(1:, :), shares)
       do flank = 1, gear%flanks
          associate (film => motion%flanks(flank))
-            call displace(contact, shares, tangent%flanks(flank), film)
-            if (film%in_nodes) film%film(1) = smallest_film(contact%grid, film%gap(1), film%pressures(:, 1))
+            call displace(gear%contact, shares, tangent%flanks(flank), film)
+            if (film%in_nodes) film%film(1) = smallest_film(gear%contact%grid, film%gap(1), film%pressures(:, 1))
          end associate
       end do
-      motion%states(1, :) = state_of(problem, gear, motion, 1)
+      motion%states(1, :) = state_of(gear, motion, 1)
    end subroutine move_to
 
    !> A period, with neighbours or without.
-   subroutine follow_period(problem, contact, gear, choice, motion, ending, tangent)
-      type(problem_t), intent(in) :: problem
-      type(nodal_contact_t), intent(in) :: contact
+   subroutine follow_period(gear, motion, ending, tangent)
       type(gear_t), intent(in) :: gear
-      type(nodal_choice_t), intent(in) :: choice
       type(motion_t), intent(inout) :: motion
       type(ending_t), intent(out) :: ending
       type(nodal_tangent_t), intent(inout), optional :: tangent
 
       do while (motion%time(1) < 1.0_dp)
-         call take_step(problem, contact, gear, choice, motion, ending, tangent)
+         call take_step(gear, motion, ending, tangent)
          ending%count%steps = ending%count%steps + 1
          if (ending%count%steps > most_steps) ending%status = status_film_cycles
          if (ending%status /= status_complete) return
@@ -273,7 +261,6 @@ contains
       !> Where it ended, as of pack_motion
       real(dp), intent(in) :: numbers(:)
       type(parting_t), intent(out) :: parting
-      type(nodal_contact_t) :: contact
       type(gear_t) :: gear
       type(motion_t) :: motion
       type(nodal_tangent_t) :: tangent
@@ -281,13 +268,13 @@ contains
       real(dp) :: growths(-turning_periods + 1:followed_periods), state(2, neighbours), farthest, share(neighbours, neighbours)
       integer :: period
 
-      call set_up(problem, choice, contact, gear)
+      call set_up(problem, choice, gear)
       call unpack_motion(problem, choice%nodes, numbers, motion)
-      call start_tangent(contact, motion%flanks(:gear%flanks), motion%time*gear%period, tangent)
+      call start_tangent(gear%contact, motion%flanks(:gear%flanks), motion%time*gear%period, tangent)
       do period = -turning_periods + 1, followed_periods
          parting%out_of_time = is_late(choice)
          if (parting%out_of_time .or. must_stop()) return
-         call follow_period(problem, contact, gear, choice, motion, ending, tangent)
+         call follow_period(gear, motion, ending, tangent)
          if (ending%status /= status_complete .or. .not. tangent%exists) return
          state = state_of_neighbours(gear, tangent)
          farthest = maxval(abs(state(:, 1)))

@@ -12,8 +12,7 @@ program newmark_outcomes
    use classify_group, only: classify_windows
    use force, only: force_of_period
    use kinds, only: dp
-   use newmark, only: advance_period, start_motion
-   use newmark_step, only: newmark_state_t
+   use newmark, only: advance_period, start_motion, newmark_state_t
    use random_scenes, only: drawn_scene_t
    use rattle_class, only: classify, rattle_verdict_t
    use prepared_scene, only: resolve, prepare, prepared_scene_t

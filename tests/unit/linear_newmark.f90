@@ -4,8 +4,7 @@ module linear_newmark
    use film_law, only: film_t
    use force, only: cosine_force, force_of_period
    use kinds, only: dp
-   use newmark, only: advance_period, start_motion
-   use newmark_step, only: newmark_state_t
+   use newmark, only: advance_period, start_motion, newmark_state_t
    use problem, only: problem_t
    use scene_status, only: status_complete
    implicit none(type, external)

@@ -7,8 +7,7 @@ module test_integrate_motion
    use film_pressure, only: exact_pressure
    use force, only: cosine_force, force_of_period
    use kinds, only: dp
-   use newmark, only: advance_period, start_motion
-   use newmark_step, only: newmark_state_t
+   use newmark, only: advance_period, start_motion, newmark_state_t
    use problem, only: of_film, of_velocity, problem_of, problem_t
    use sample_recorder, only: sample_recorder_t
    use scene_status, only: status_complete, status_no_rigid_film, status_not_converged, status_overflow

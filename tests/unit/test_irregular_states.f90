@@ -1,8 +1,8 @@
 !> Tests of whether motions that do not repeat are one by their states.
 module test_irregular_states
    use checks, only: check_list_t
-   use irregular_states, only: are_of_one_motion
    use kinds, only: dp
+   use known_motions, only: are_of_one_motion
    implicit none(type, external)
    private
 

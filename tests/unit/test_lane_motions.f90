@@ -3,7 +3,7 @@
 module test_lane_motions
    use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t, same_bits
-   use collocation_newton, only: correct, newton_pass_t
+   use collocation_newton, only: correct, newton_iteration_t
    use engine, only: ending_t, motion_state_t, request_t, start_of
    use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, kernel_solved_fast, &
       kernel_solved_successive, new_film
@@ -17,9 +17,8 @@ module test_lane_motions
    use radau_nodes, only: stages
    use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_steady
-   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, &
-      rupture_solver_fast, &
-                          rupture_solver_successive, scene_t
+   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, rupture_solver_fast, &
+      rupture_solver_successive, scene_t
    use harmonic_spectrum, only: find_harmonics, harmonic_spectrum_t
    implicit none(type, external)
    private
@@ -53,7 +52,7 @@ contains
       call test_company(checks)
       call test_returning_periods(checks)
       call test_overshooting_newton(checks)
-      call test_last_pass(checks)
+      call test_last_iteration(checks)
    end subroutine run_lane_motions_tests
 
    !> Canonical scene of a kernel, started from its steady film. The Reynolds films have u_r = 1.905 m/s. For the
@@ -382,15 +381,15 @@ contains
    end subroutine test_overshooting_newton
 
    !> A small correction ends the iterations of Newton's method if the residual has fallen with it, and not if it has grown.
-   subroutine test_last_pass(checks)
+   subroutine test_last_iteration(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       type(flank_contact_t) :: contacts(lane_count)
       type(lane_block_t) :: block
-      type(newton_pass_t) :: last
+      type(newton_iteration_t) :: last
       logical :: busy(lane_count)
       real(dp), dimension(lane_count, stages) :: correction, k
-      real(dp) :: imbalance(lane_count)
+      real(dp) :: residual(lane_count)
 
       block%film(:, 0) = 1.0_dp
       block%backlash = huge(1.0_dp)
@@ -398,21 +397,21 @@ contains
       block%accuracy = 1.0e-6_dp
       block%damping_rate = 0.0_dp
       block%force = 1.0_dp
-      block%trust = 1.0_dp
+      block%accepted = 1.0_dp
       block%no_load = .false.
       busy = .true.
       k = 0.0_dp
-      imbalance = 1.0_dp
+      residual = 1.0_dp
       correction = 1.0_dp
-      call correct(contacts, busy, 1, imbalance, correction, last, block, k)
-      call checks%check(all(busy), 'last pass: not the first')
-      imbalance(1) = 1.0e-4_dp
-      imbalance(2) = 1.0e4_dp
+      call correct(contacts, busy, 1, residual, correction, last, block, k)
+      call checks%check(all(busy), 'last iteration: not the first')
+      residual(1) = 1.0e-4_dp
+      residual(2) = 1.0e4_dp
       correction = 1.0e-4_dp
-      call correct(contacts, busy, 2, imbalance, correction, last, block, k)
-      call checks%check(.not. busy(1), 'last pass: corrections and residuals fall')
-      call checks%check(all(busy(2:)), 'last pass: corrections fall, residuals do not')
-   end subroutine test_last_pass
+      call correct(contacts, busy, 2, residual, correction, last, block, k)
+      call checks%check(.not. busy(1), 'last iteration: corrections and residuals fall')
+      call checks%check(all(busy(2:)), 'last iteration: corrections fall, residuals do not')
+   end subroutine test_last_iteration
 
    !> Whether two motions agree to the last bit.
    pure logical function same(some, i, others, j)

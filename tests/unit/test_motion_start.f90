@@ -4,12 +4,11 @@ module test_motion_start
    use checks, only: check_list_t
    use engine, only: motion_state_t, state_of_start
    use kinds, only: dp
-   use known_motions, only: reached_motion
+   use known_motions, only: known_of, reached_motion, same_motion, same_state, settled_motion_t
    use motion_start, only: characteristic_velocity, chosen_starts, gap_of_starts, motion_start_t, motion_starts, &
       one_by_damping, one_by_newmark, one_start_reason, one_without_swing, several_starts
    use problem, only: film_at_rest, of_film, of_velocity, problem_of, problem_t, static_load
    use scene_types, only: law_iso_viscous, method_newmark, method_taylor, scene_t
-   use settled_motion, only: known_of, same_motion, same_state, settled_motion_t
    implicit none(type, external)
    private
 

@@ -5,8 +5,7 @@ module test_newmark
    use kinds, only: dp
    use linear_newmark, only: first_film, first_velocity, linear_film, linear_method, linear_motion, linear_problem, periods, &
       run_linear
-   use newmark, only: start_motion
-   use newmark_step, only: newmark_state_t
+   use newmark, only: start_motion, newmark_state_t
    use scene_status, only: status_complete
    implicit none(type, external)
    private

@@ -8,8 +8,7 @@ module test_newmark_by_hand
    use kinds, only: dp
    use linear_newmark, only: damping, first_film, first_velocity, linear_method, load_at_zero, periods, run_linear, stiffness, &
       two_pi
-   use newmark, only: advance_period, start_motion
-   use newmark_step, only: newmark_state_t
+   use newmark, only: advance_period, start_motion, newmark_state_t
    use problem, only: problem_of, problem_t
    use scene_types, only: law_iso_viscous
    implicit none(type, external)

@@ -7,8 +7,7 @@ module test_newmark_cuts
    use force, only: force_of_period
    use kinds, only: dp, int64
    use linear_newmark, only: linear_film, linear_method, two_pi, linear_problem
-   use newmark, only: advance_period, start_motion
-   use newmark_step, only: newmark_state_t
+   use newmark, only: advance_period, start_motion, newmark_state_t
    use problem, only: problem_of, problem_t, static_load
    use scene_status, only: status_complete, status_film_lost, status_not_converged, status_overflow
    use scene_types, only: law_iso_viscous, law_piezo_viscous

@@ -11,7 +11,6 @@ module test_nodal_orbit
    use kinds, only: dp
    use lyapunov, only: parting_t
    use nodal_engine, only: solve_in_nodes
-   use nodal_flank, only: nodal_contact_t
    use nodal_orbit, only: find_nodal_orbit, follow_nodal_neighbours, orbit_found, orbit_none_near, orbit_out_of_time, &
       orbit_sentence
    use nodal_judgement, only: choice_of, solve_finer
@@ -84,12 +83,11 @@ contains
    !> the same steps.
    subroutine test_neighbours(checks)
       type(check_list_t), intent(inout) :: checks
-      !> Distance of the neighbours over the unit of films: the last correction of Newton's passes is at most 1e-7 of a film
+      !> Distance of the neighbours over the unit of films: the last correction of Newton's iterations is at most 1e-7 of a film
       real(dp), parameter :: apart = 3.0e-4_dp
       integer, parameter :: laws(2) = [viscosity_constant, viscosity_roelands]
       type(problem_t) :: problem
       type(nodal_choice_t) :: choice
-      type(nodal_contact_t) :: contact
       type(gear_t) :: gear
       type(nodal_tangent_t) :: tangent
       type(motion_t) :: motion, other
@@ -101,15 +99,15 @@ contains
       do i = 1, size(laws)
          call solve(gear_scene(laws(i), 2), problem, choice, ending)
          call checks%check(ending%status == status_complete, 'scene G is solved')
-         call set_up(problem, choice, contact, gear)
+         call set_up(problem, choice, gear)
          call unpack_motion(problem, choice%nodes, ending%nodal, motion)
-         call start_tangent(contact, motion%flanks(:gear%flanks), motion%time*gear%period, tangent)
+         call start_tangent(gear%contact, motion%flanks(:gear%flanks), motion%time*gear%period, tangent)
          shares = [apart, 0.0_dp]
          other = motion
          other%position(1:) = motion%position(1:) + matmul(tangent%position(1:, :), shares)
          other%velocity(1:) = motion%velocity(1:) + matmul(tangent%velocity(1:, :), shares)
          do flank = 1, gear%flanks
-            call displace(contact, shares, tangent%flanks(flank), other%flanks(flank))
+            call displace(gear%contact, shares, tangent%flanks(flank), other%flanks(flank))
          end do
          ending%status = status_complete
          alike = .true.
@@ -119,9 +117,9 @@ contains
          steps = 0
          do while (motion%time(1) < 1.0_dp .and. alike .and. ending%status == status_complete)
             in_nodes = motion%flanks%in_nodes
-            call take_step(problem, contact, gear, choice, motion, ending, tangent)
+            call take_step(gear, motion, ending, tangent)
             other%step = motion%time(1) - motion%time(2)
-            call take_step(problem, contact, gear, choice, other, ending)
+            call take_step(gear, other, ending)
             alike = abs(motion%time(1) - other%time(1)) <= 1.0e-13_dp .and. all(motion%flanks%in_nodes .eqv. other%flanks%in_nodes)
             if (any(in_nodes .neqv. motion%flanks%in_nodes)) changes = changes + 1
             steps = steps + 1
