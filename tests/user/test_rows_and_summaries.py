@@ -1,7 +1,9 @@
-"""A row tells of a scene what its summary tells, to the last bit."""
+"""A row and a value of a sweep tell of a scene what its summary tells, to the last bit."""
 
 from __future__ import annotations
 
+import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -13,6 +15,7 @@ import rattle as package
 sys.path.insert(0, str(Path(__file__).parents[1] / "stress"))
 
 import gear_rows
+import told_alike
 
 QUANTITIES = (
     "film_minimum",
@@ -100,3 +103,69 @@ def test_gear_inputs_of_the_study(number: int, rattle: Path, tmp_path: Path) -> 
     """All quantities of random gear inputs, one of each kind whose rows once differed from single scenes."""
     case = gear_rows.draw(number, gear_rows.numeric_keys(rattle))
     assert list(gear_rows.faults_of(rattle, case, gear_rows.recordable(rattle), tmp_path)) == []
+
+
+# A pair that comes back to one motion within a few periods, and one with two motions.
+QUICK = """
+&contact radius = 7.5e-3, length = 0.02, backlash = 1.0e-4 /
+&lubricant viscosity = 0.05 /
+&kinematics entrainment_speed = 1.07 /
+&load mass = 0.45, steady_force = 5.0, gravity = 0.0, frequency = 26.7 /
+&film law = 'iso-viscous', model = 'reynolds' /
+&solver samples_per_period = 1024, periods = 60 /
+&spectrum periods = 4 /
+"""
+SLOW = """
+&contact radius = 5.2564712e-3, length = 0.017967588, backlash = 1.0e-4, stiffness = 2.24e8 /
+&lubricant viscosity = 0.013016226 /
+&kinematics entrainment_speed = 1.0836941 /
+&load mass = 0.86080597, steady_force = 2.2403743, gravity = 0.0, frequency = 57.150477 /
+&film law = 'iso-viscous', model = 'reynolds' /
+&solver samples_per_period = 1024, periods = 200 /
+&spectrum periods = 4 /
+"""
+
+
+@pytest.mark.parametrize("starts", (1,))
+@pytest.mark.parametrize(
+    ("shared", "force", "until"), [(QUICK, 7.9, "steady"), (QUICK, 7.9, "periods"), (SLOW, 12.7, "steady")]
+)
+def test_summary_row_and_value_are_the_same(
+    shared: str, force: float, until: str, starts: int, rattle: Path, run, tmp_path: Path
+) -> None:
+    """Every quantity that two of them tell, of all motions too, for any number of starts.
+
+    A row that is followed until steady may jump to where its motion is forecast to settle: it has other
+    periods then, and all else within the accuracy. Everything else has the same bits.
+    """
+    table = subprocess.run([rattle, "--quantities"], capture_output=True, text=True, check=True).stdout
+    names = re.findall(r"^\w+", table, re.MULTILINE)
+    of_starts = [name for name in names if gear_rows.OF_STARTS.fullmatch(name)]
+    record = [*gear_rows.recordable(rattle), *of_starts]
+    shared = shared.replace("&solver ", f"&solver until = '{until}', starts = {starts}, ").strip()
+    scene = {"load.force_amplitude": force}
+    campaign = (
+        "&scene task = 'campaign' /\n&campaign vary = 'load.force_amplitude', "
+        f"values(:, 1) = {force!r}, samples_per_period = 1024, record = {', '.join(map(repr, record))} /"
+    )
+    sweep = (
+        "&scene task = 'sweep' /\n"
+        f"&sweep key = 'force_amplitude', first = {force!r}, last = {1.01 * force!r}, count = 2 /"
+    )
+    without = re.sub(r"until = '\w+', starts = \d+, ", "", shared)
+    (tmp_path / "many.nml").write_text(told_alike.input_text(shared, scene, campaign))
+    (tmp_path / "one.nml").write_text(told_alike.input_text(shared, scene, ""))
+    (tmp_path / "swept.nml").write_text(told_alike.input_text(without, scene, sweep))
+    for name in ("many", "one", "swept"):
+        ended = run(f"{name}.nml", cwd=tmp_path)
+        assert ended.returncode == 0, ended.stderr
+    alone = told_alike.numbers_of(package.read_summary(tmp_path / "results" / "one.summary.nml"))
+    rows = package.read_campaign(tmp_path / "results" / "many.rattle")
+    row = {name: float(rows[name][0]) for name in rows.names if name not in scene}
+    assert {"motions", "loudest_acceleration_rms", "unsettled_starts"} <= alone.keys() & row.keys()
+    assert alone["starts_solved"] == row["starts_solved"] == starts
+    assert list(told_alike.compared(alone, row, told_alike.ROW, "the row")) == []
+    if until == "steady":
+        values = package.read(tmp_path / "results" / "swept.rattle")
+        first = {name: float(values[name][0]) for name in values.names[1:]}
+        assert list(told_alike.compared(alone, first, told_alike.SWEEP, "the value")) == []
