@@ -26,7 +26,7 @@ module campaign_progress
       logical :: quiet = .false.
       character(:), allocatable :: path
       logical, private :: on_terminal = .false.
-      real(dp), private :: started = 0.0_dp, told = 0.0_dp, written = 0.0_dp
+      real(dp), private :: started = 0.0_dp, last_report = 0.0_dp, written = 0.0_dp
    contains
       procedure :: start
       procedure :: add
@@ -55,7 +55,7 @@ contains
       self%quiet = quiet
       self%on_terminal = is_terminal()
       self%started = wall_seconds()
-      self%told = self%started
+      self%last_report = self%started
       self%written = self%started
    end subroutine start
 
@@ -81,7 +81,7 @@ contains
       !$omp critical (sentences)
       is_due = self%done_before + self%counts(count_done) < self%scenes .and. &
                (now - self%written > file_interval .or. &
-                now - self%told >= merge(terminal_interval, line_interval, self%on_terminal))
+                now - self%last_report >= merge(terminal_interval, line_interval, self%on_terminal))
       !$omp end critical (sentences)
    end function is_due
 
@@ -98,25 +98,25 @@ contains
       !$omp critical (sentences)
       if (present(done)) self%done_elsewhere = max(0_int64, done - self%done_before - self%counts(count_done))
       if (now - self%written > file_interval) call write_progress(self, now)
-      if (now - self%told >= merge(terminal_interval, line_interval, self%on_terminal)) call tell_line(self, log, now)
+      if (now - self%last_report >= merge(terminal_interval, line_interval, self%on_terminal)) call report_line(self, log, now)
       !$omp end critical (sentences)
    end subroutine tell
 
    !> A line that is written over on a terminal, one more elsewhere.
-   subroutine tell_line(self, log, now)
+   subroutine report_line(self, log, now)
       class(campaign_progress_t), intent(inout) :: self
       type(log_t), intent(in) :: log
       real(dp), intent(in) :: now
       integer :: ignored
 
-      self%told = now
+      self%last_report = now
       if (.not. self%on_terminal) then
          call log%line('  '//words(self, now))
       else if (.not. self%quiet) then
          write (output_unit, '(a)', advance='no', iostat=ignored) achar(13)//'  '//words(self, now)//'   '
          flush (output_unit, iostat=ignored)
       end if
-   end subroutine tell_line
+   end subroutine report_line
 
    !> Add up the counts of all ranks.
    subroutine add_up(self)

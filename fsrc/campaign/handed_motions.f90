@@ -10,7 +10,7 @@ module handed_motions
    use problem, only: problem_t
    use rattle_class, only: class_irregular
    use prepared_scene, only: prepared_scene_t
-   use row_motions, only: are_alike, handed_state, row_motions_t, solve_trials, trial_t
+   use row_motions, only: are_alike, handed_state, row_motions_t, solve_trials, start_trial_t
    use sampling, only: method_grid, sample_plan_t
    use scene_group, only: scene_group_t
    use scene_orbit, only: orbit_ahead
@@ -73,13 +73,13 @@ contains
          integer, intent(in) :: places(:)
          type(motion_start_t) :: starts(scene%solver%starts, size(places))
          type(motion_state_t) :: state
-         type(trial_t) :: trials(size(places), scene%solver%starts)
+         type(start_trial_t) :: trials(size(places), scene%solver%starts)
          logical :: follows(size(places))
          integer :: number, i
 
          do i = 1, size(places)
             associate (own => found(places(i)))
-               trials(i, 1) = trial_t(places(i), own%settled(1)%states(:, 1), is_own=.true.)
+               trials(i, 1) = start_trial_t(places(i), own%settled(1)%states(:, 1), is_own=.true.)
                follows(i) = own%settled(1)%period == 0 .and. own%told%motions(1)%class /= class_irregular
             end associate
             starts(:, i) = motion_starts(scenes(places(i))%resolved%problem, scene%solver%starts, start_seed)
@@ -89,7 +89,7 @@ contains
          do number = 2, scene%solver%starts
             do i = 1, size(places)
                state = state_of_start(scenes(places(i))%resolved%problem, starts(number, i))
-               trials(i, number) = trial_t(places(i), state%numbers)
+               trials(i, number) = start_trial_t(places(i), state%numbers)
             end do
             call try(trials(:, number))
             if (must_stop() .or. allocated(error)) return
@@ -108,7 +108,7 @@ contains
       !> Hand every motion to the neighbours that have none like it, in rounds ordered by the numbers of the scenes.
       subroutine hand_on_motions
          type(handed_t) :: handed(size(found))
-         type(trial_t), allocatable :: trials(:)
+         type(start_trial_t), allocatable :: trials(:)
          integer :: i, last
 
          do i = 1, size(handed)
@@ -138,8 +138,8 @@ contains
       subroutine follow_on(followed, trials)
          !> Which of the trials
          logical, intent(in) :: followed(:)
-         type(trial_t), intent(inout) :: trials(:)
-         type(trial_t), allocatable :: these(:)
+         type(start_trial_t), intent(inout) :: trials(:)
+         type(start_trial_t), allocatable :: these(:)
          integer, allocatable :: left(:)
          integer :: extension, i
 
@@ -161,7 +161,7 @@ contains
 
       !> Solve some starts side by side.
       subroutine try(trials)
-         type(trial_t), intent(inout) :: trials(:)
+         type(start_trial_t), intent(inout) :: trials(:)
 
          call solve_trials(scenes, with_verdicts, trials, space, found, error)
       end subroutine try
@@ -171,7 +171,7 @@ contains
    !> Where a trial nears a stable periodic motion, it starts on that one.
    subroutine go_to_orbit(problem, trial)
       type(problem_t), intent(in) :: problem
-      type(trial_t), intent(inout) :: trial
+      type(start_trial_t), intent(inout) :: trial
       type(periodic_orbit_t) :: orbit
 
       orbit = orbit_ahead(problem, motion_state_t(numbers=trial%state))
@@ -185,7 +185,7 @@ contains
       type(prepared_scene_t), intent(in) :: scenes(:)
       type(row_motions_t), intent(in) :: found(:)
       type(handed_t), intent(inout) :: handed(:)
-      type(trial_t), allocatable, intent(out) :: trials(:)
+      type(start_trial_t), allocatable, intent(out) :: trials(:)
       type(settled_motion_t), allocatable :: known(:)
       integer(int64), allocatable :: neighbours(:)
       integer :: to, from, i, place
@@ -208,7 +208,8 @@ contains
                   handed(to)%scenes = [handed(to)%scenes, from]
                   handed(to)%places = [handed(to)%places, place]
                   known = [known, motion]
-                  trials = [trials, trial_t(to, handed_state(scenes(to)%resolved%problem, motion, scenes(from)%resolved%problem))]
+                  trials = [trials, start_trial_t(to, handed_state(scenes(to)%resolved%problem, motion, &
+                                                                   scenes(from)%resolved%problem))]
                end associate
             end do
          end do

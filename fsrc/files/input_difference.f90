@@ -7,7 +7,7 @@ module input_difference
    private
 
    !> Keys that are named with their values; more are counted.
-   integer, parameter :: most_told = 4
+   integer, parameter :: most_reported = 4
 
    !> Keys whose files hold tables, of which the rows stand as comments in a resolved input
    character(*), parameter :: tables(2) = [character(15) :: 'gear.drag_table', 'shaft.table']
@@ -27,12 +27,12 @@ contains
       character(:), allocatable :: sentence
       type(assignment_t), allocatable :: old(:), new(:)
       type(fault_list_t) :: ignored
-      integer :: i, place, told
+      integer :: i, place, reported
 
       call scan_namelists(stored, '', 1, old, ignored)
       call scan_namelists(current, '', 1, new, ignored)
       sentence = ''
-      told = 0
+      reported = 0
       do i = 1, size(new)
          if (len(new(i)%key) == 0 .or. may_differ(new(i), free)) cycle
          place = find(old, new(i))
@@ -50,7 +50,7 @@ contains
          if (lines_of(stored, trim(tables(i))) /= lines_of(current, trim(tables(i)))) &
             call tell(trim(tables(i))//' holds other rows now')
       end do
-      if (told > most_told) sentence = sentence//'; and '//counted(told - most_told, 'key')//' more'
+      if (reported > most_reported) sentence = sentence//'; and '//counted(reported - most_reported, 'key')//' more'
 
    contains
 
@@ -58,15 +58,15 @@ contains
       subroutine tell(words)
          character(*), intent(in) :: words
 
-         told = told + 1
-         if (told > most_told) return
-         if (told > 1) sentence = sentence//'; '
+         reported = reported + 1
+         if (reported > most_reported) return
+         if (reported > 1) sentence = sentence//'; '
          sentence = sentence//words
       end subroutine tell
 
    end function differing_keys
 
-   !> What is told of the rows of a table, which stand in a file of their own.
+   !> What is reported of the rows of a table, which stand in a file of their own.
    pure function lines_of(input, table) result(lines)
       !> Resolved input
       character(*), intent(in) :: input

@@ -179,6 +179,7 @@ contains
       logical :: is_hopeless
 
       is_hopeless = .false.
+      cause = ''
       allocate (values(self%line_count, size(chosen)), lines(self%line_count))
       row = 0
       do

@@ -52,10 +52,10 @@ contains
       if (allocated(error)) return
       reason = reason_for_nodes(judged, scene%spectrum%impact_limit)
       if (reason%code == 0) then
-         chosen%film%told = 'by the closure: its range and its verdict allow for its errors'
+         chosen%film%model_words = 'by the closure: its range and its verdict allow for its errors'
       else
          chosen = scene_in_nodes(chosen)
-         chosen%film%told = 'in nodes: '//words_of(reason, judged)
+         chosen%film%model_words = 'in nodes: '//words_of(reason, judged)
       end if
    end subroutine choose_model
 
@@ -70,8 +70,8 @@ contains
       chosen = scene
       chosen%film%automatic = .false.
       chosen%film%nodes_stopped = .true.
-      chosen%film%told = 'by the closure, as films in nodes stopped ('//stopped//'); in nodes because '// &
-                         in_nodes%film%told(len('in nodes: ') + 1:)
+      chosen%film%model_words = 'by the closure, as films in nodes stopped ('//stopped//'); in nodes because '// &
+                         in_nodes%film%model_words(len('in nodes: ') + 1:)
    end function closure_instead
 
    !> The scene with its films in nodes, from rest.

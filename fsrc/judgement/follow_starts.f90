@@ -7,7 +7,7 @@
 module follow_starts
    use carried_loads, only: counts_as, thinnest_film
    use classify_group, only: classify_windows, follow_irregular
-   use coexisting_motions, only: coexisting_motions_t, told_motion_t
+   use coexisting_motions, only: coexisting_motions_t, motion_summary_t
    use engine, only: ending_t, motion_state_t, request_t, status_of_stop, state_of_start
    use errors, only: error_t
    use judged_scene, only: judged_scene_t
@@ -165,7 +165,7 @@ contains
       !> The same, as far as it repeats
       type(settled_motion_t), allocatable, intent(out) :: settled(:)
       type(periodic_orbit_t) :: orbit
-      type(told_motion_t) :: own
+      type(motion_summary_t) :: own
 
       orbit = judged%orbit
       if (orbit%period == 0 .and. for_others .and. .not. scene%spectrum%verify) &
@@ -200,7 +200,7 @@ contains
    type(settled_motion_t) function settled_of(problem, told) result(settled)
       type(problem_t), intent(in) :: problem
       !> Its state, period and rms
-      type(told_motion_t), intent(in) :: told
+      type(motion_summary_t), intent(in) :: told
       real(dp) :: states(size(told%state), 1)
       integer :: i
       logical :: mapped
@@ -222,7 +222,7 @@ contains
       type(problem_t), intent(in) :: problem
       type(motion_start_t), intent(in) :: starts(:)
       !> The motion of the scene itself, as far as it came
-      type(told_motion_t), intent(in) :: own
+      type(motion_summary_t), intent(in) :: own
       type(follower_t), intent(out) :: followers
       integer :: i, n
 
@@ -394,7 +394,7 @@ contains
       !> tried; absent: next to its end, as its periods come near each other [-]
       real(dp), intent(in), optional :: ahead_within
       type(periodic_orbit_t) :: orbit
-      type(told_motion_t) :: told
+      type(motion_summary_t) :: told
       type(settled_motion_t) :: one
       type(scene_group_t) :: group
       type(ending_t) :: here
@@ -450,7 +450,7 @@ contains
       type(motion_state_t), intent(in) :: start
       integer, intent(in) :: periods
       !> With its period; class 0 where it could not be solved
-      type(told_motion_t), intent(inout) :: told
+      type(motion_summary_t), intent(inout) :: told
       !> With its solution
       type(scene_group_t), intent(inout) :: group
       type(error_t), allocatable, intent(out) :: error
@@ -491,7 +491,7 @@ contains
       !> Whether it is not
       logical, intent(out) :: is_none
       type(error_t), allocatable, intent(out) :: error
-      type(told_motion_t) :: told
+      type(motion_summary_t) :: told
       type(settled_motion_t) :: without_states
       type(scene_group_t) :: group
 
@@ -516,7 +516,7 @@ contains
       !> Its place among those that are known
       integer, intent(in) :: place
       type(settled_motion_t), intent(in) :: settled(:)
-      type(told_motion_t), intent(inout) :: told
+      type(motion_summary_t), intent(inout) :: told
       type(ending_t), allocatable :: endings(:)
       type(motion_state_t), allocatable :: starts(:)
       type(problem_t), allocatable :: problems(:)

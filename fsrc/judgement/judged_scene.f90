@@ -34,7 +34,7 @@ module judged_scene
       type(resolved_scene_t) :: resolved
       !> How it is followed where its films are solved in nodes
       type(nodal_choice_t) :: nodal
-      !> Whether it is told by the closure because films in nodes stopped
+      !> Whether it is solved by the closure because films in nodes stopped
       logical :: nodes_stopped = .false.
       !> How its motion ended, the status of the scene, of scene_status, and whether there is a window that was judged
       type(ending_t) :: ending
@@ -336,47 +336,47 @@ contains
    end function impact_value
 
    !> Value of a quantity of a contact.
-   pure real(dp) function contact_value(told, contact, judged) result(value)
-      !> What is told of the contact, by a code of module quantities
-      integer, intent(in) :: told
+   pure real(dp) function contact_value(part, contact, judged) result(value)
+      !> What of the contact, by a code of module quantities
+      integer, intent(in) :: part
       !> Number of a contact that there is
       integer, intent(in) :: contact
       type(judged_scene_t), intent(in) :: judged
 
       value = ieee_value(value, ieee_quiet_nan)
-      select case (told)
-      case (told_film_minimum)
+      select case (part)
+      case (contact_film_minimum)
          value = judged%extremes%lowest(seen_films(contact))%value
-      case (told_film_maximum)
+      case (contact_film_maximum)
          value = judged%extremes%highest(seen_films(contact))%value
-      case (told_load_maximum)
+      case (contact_load_maximum)
          value = judged%extremes%highest(seen_loads(contact))%value
       case default
-         if (judged%impacts%exists) value = value_of_impacts(told, judged%impacts%contacts(contact), judged%impacts%periods)
+         if (judged%impacts%exists) value = value_of_impacts(part, judged%impacts%contacts(contact), judged%impacts%periods)
       end select
    end function contact_value
 
    !> Value of a quantity of the impacts on a contact.
-   pure real(dp) function value_of_impacts(told, impacts, periods) result(value)
+   pure real(dp) function value_of_impacts(part, impacts, periods) result(value)
       !> As of contact_value
-      integer, intent(in) :: told
+      integer, intent(in) :: part
       type(impact_count_t), intent(in) :: impacts
       !> Periods that they were counted in
       integer, intent(in) :: periods
 
       value = ieee_value(value, ieee_quiet_nan)
-      select case (told)
-      case (told_impacts)
+      select case (part)
+      case (contact_impacts)
          value = real(impacts%count, dp)
-      case (told_impacts_per_period)
+      case (contact_impacts_per_period)
          value = real(impacts%count, dp)/real(periods, dp)
-      case (told_impact_load_maximum)
+      case (contact_impact_load_maximum)
          value = impacts%load_maximum
-      case (told_impact_velocity_maximum)
+      case (contact_impact_velocity_maximum)
          value = impacts%velocity_maximum
-      case (told_impact_impulse_maximum)
+      case (contact_impact_impulse_maximum)
          value = impacts%impulse_maximum
-      case (told_impact_impulse_mean)
+      case (contact_impact_impulse_mean)
          value = impacts%impulse_sum/real(max(1, impacts%count), dp)
       case default
          continue
@@ -483,21 +483,21 @@ contains
    end function quantity_list
 
    !> A number of each impact on a contact that is kept.
-   pure function impact_list(told, impacts, judged) result(list)
+   pure function impact_list(part, impacts, judged) result(list)
       !> As of contact_value
-      integer, intent(in) :: told
+      integer, intent(in) :: part
       type(impact_count_t), intent(in) :: impacts
       type(judged_scene_t), intent(in) :: judged
       real(dp), allocatable :: list(:)
 
       allocate (list(0))
       if (.not. allocated(impacts%kept)) return
-      select case (told)
-      case (told_impact_times)
+      select case (part)
+      case (contact_impact_times)
          list = (real(judged%ending%periods - judged%window_periods, dp) + impacts%kept%time)/judged%resolved%problem%frequency
-      case (told_impact_loads)
+      case (contact_impact_loads)
          list = impacts%kept%load
-      case (told_impact_velocities)
+      case (contact_impact_velocities)
          list = impacts%kept%velocity
       case default
          list = impacts%kept%impulse

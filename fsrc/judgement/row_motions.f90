@@ -3,7 +3,7 @@
 module row_motions
    use starting_state, only: keep_by_contacts, kept_by_contacts
    use classify_group, only: classify_windows, follow_irregular
-   use coexisting_motions, only: coexisting_motions_t, told_motion_t
+   use coexisting_motions, only: coexisting_motions_t, motion_summary_t
    use engine, only: same_request, motion_state_t
    use errors, only: error_t
    use kinds, only: dp
@@ -36,7 +36,7 @@ module row_motions
    end type row_motions_t
 
    !> A state to start from.
-   type, public :: trial_t
+   type, public :: start_trial_t
       !> Place of its scene in the batch
       integer :: scene = 0
       real(dp), allocatable :: state(:)
@@ -45,7 +45,7 @@ module row_motions
       !> On return, whether it came to a motion that repeats, and whether it did not and may still, or came next to one whose
       !> acceleration its window does not tell; the state is that of its end then
       logical :: settled = .false., is_open = .false., is_next_to_one = .false.
-   end type trial_t
+   end type start_trial_t
 
    public :: motion_from_rest, solve_trials, handed_state, are_alike
 
@@ -65,7 +65,7 @@ contains
       allocate (settled(0))
       if (.not. is_success(group%endings(place)%status)) return
       settled = [settled_of(scene%resolved%problem, scene%request%samples_per_period, place, group)]
-      told%motions = [told_of(scene%resolved%problem, place, group, settled(1))]
+      told%motions = [summary_of(scene%resolved%problem, place, group, settled(1))]
       told%motions(1)%from_own_start = .true.
       told%starts_solved = 1
       if (settled(1)%period == 0) told%unsettled_starts = 1
@@ -96,14 +96,14 @@ contains
             settled%period = near_orbit(problem, near_states(problem), states)
          settled%states = states(:, periods - max(1, settled%period) + 1:)
          if (settled%period == 0 .and. group%verdicts(place)%class == class_subharmonic .and. group%repeat_after(place) > 1) &
-            call follow_on(problem, group%repeat_after(place), settled)
+            call follow_periods(problem, group%repeat_after(place), settled)
          if (settled%period > 0) settled%rms_is_rough = modulo(periods, settled%period) > 0
          if (allocated(group%paths(place)%states)) settled%path = group%paths(place)%states
       end associate
    end function settled_of
 
    !> States of a motion that repeats after more periods than its window may have, from the end of the window on.
-   subroutine follow_on(problem, period, settled)
+   subroutine follow_periods(problem, period, settled)
       type(problem_t), intent(in) :: problem
       !> Periods of the force after which it repeats
       integer, intent(in) :: period
@@ -122,10 +122,10 @@ contains
       end do
       settled%period = period
       settled%states = states
-   end subroutine follow_on
+   end subroutine follow_periods
 
    !> What is told of a motion by its window.
-   pure type(told_motion_t) function told_of(problem, place, group, settled) result(told)
+   pure type(motion_summary_t) function summary_of(problem, place, group, settled) result(told)
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: place
       type(scene_group_t), intent(in) :: group
@@ -144,7 +144,7 @@ contains
       told%acceleration_rms = severity%acceleration_rms
       told%film_force_rms = severity%film_force_rms
       told%film_minimum = group%records(place)%lowest(seen_films(1))%value
-   end function told_of
+   end function summary_of
 
    !> Periods of the force after which the states of a window come again near enough, 0 if they do not within half of it.
    pure integer function near_orbit(problem, measure, states) result(orbit)
@@ -168,7 +168,7 @@ contains
       !> Whether the verdicts of the motions are asked for
       logical, intent(in) :: with_verdicts
       !> The starts; the first of those that lead to one motion counts
-      type(trial_t), intent(inout) :: trials(:)
+      type(start_trial_t), intent(inout) :: trials(:)
       !> Work space
       type(scene_group_t), intent(inout) :: space
       type(row_motions_t), intent(inout) :: found(:)
@@ -232,10 +232,10 @@ contains
       !> Place of the start in its group
       integer, intent(in) :: place
       type(scene_group_t), intent(in) :: group
-      type(trial_t), intent(inout) :: trial
+      type(start_trial_t), intent(inout) :: trial
       type(row_motions_t), intent(inout) :: found
       type(settled_motion_t) :: motion
-      type(told_motion_t) :: told
+      type(motion_summary_t) :: told
       integer :: known, i
 
       associate (ending => group%endings(place), problem => scene%resolved%problem)
@@ -259,7 +259,7 @@ contains
                motion%states = motion%states(:, size(motion%states, 2):)
             end if
             if (known == 0 .and. is_another(trial%settled, group%verdicts(place)%class, found%settled)) then
-               told = told_of(problem, place, group, motion)
+               told = summary_of(problem, place, group, motion)
                found%settled = [found%settled, motion]
                found%told%motions = [found%told%motions, told]
                known = size(found%settled)

@@ -80,7 +80,7 @@ contains
       end if
    end subroutine run_batch
 
-   !> Run the scenes, side by side where there are threads for it: begun and told in their order, whoever is done first. A failed
+   !> Run the scenes, side by side where there are threads for it: begun and reported in their order, whoever is done first. A failed
    !> one does not stop the others. After a signal, or trouble with files, no more are begun.
    subroutine run_all(command, scenes, exit_code)
       type(command_t), intent(in) :: command
@@ -88,13 +88,13 @@ contains
       integer, intent(out) :: exit_code
       type(outcome_t), allocatable :: outcomes(:)
       type(pair_row_t), allocatable :: rows(:)
-      integer :: begun, told, place
+      integer :: begun, reported, place
       logical :: is_ending, in_trouble
 
       exit_code = exit_complete
       allocate (outcomes(size(scenes)), rows(0))
       begun = 0
-      told = 0
+      reported = 0
       is_ending = .false.
       in_trouble = .false.
       call share_output(size(scenes))
@@ -110,11 +110,11 @@ contains
          is_ending = is_ending .or. has_trouble(outcomes(place)) .or. outcomes(place)%status == status_interrupted &
                      .or. caught_signal() /= 0
          outcomes(place)%is_over = .true.
-         do while (told < begun)
-            if (.not. outcomes(told + 1)%is_over) exit
-            told = told + 1
-            call speak_for(told)
-            call settle_place(command, scenes, outcomes, told, is_ending .and. told == begun, rows, in_trouble, exit_code)
+         do while (reported < begun)
+            if (.not. outcomes(reported + 1)%is_over) exit
+            reported = reported + 1
+            call speak_for(reported)
+            call settle_place(command, scenes, outcomes, reported, is_ending .and. reported == begun, rows, in_trouble, exit_code)
             call end_turn()
          end do
       end do
@@ -393,7 +393,7 @@ contains
    end subroutine show_resolved
 
    !> Faults to standard error, one line each. A fault of the command line is found anew with every
-   !> file, but told once.
+   !> file, but reported once.
    subroutine print_faults(faults)
       !> All faults
       type(fault_list_t), intent(in) :: faults

@@ -178,14 +178,14 @@ contains
                                                          value_of(setting(:equals - 1), setting(equals + 1:))//new_line('a')//'/')]
    end subroutine add_override
 
-   !> A setting as it is told in faults: nobody reads thousands of numbers.
-   pure function shortened(setting) result(told)
+   !> A setting as it is reported in faults: nobody reads thousands of numbers.
+   pure function shortened(setting) result(short)
       character(*), intent(in) :: setting
-      character(:), allocatable :: told
+      character(:), allocatable :: short
       integer, parameter :: longest = 200
 
-      told = setting
-      if (len(setting) > longest) told = setting(:longest)//' ...'
+      short = setting
+      if (len(setting) > longest) short = setting(:longest)//' ...'
    end function shortened
 
    !> Most threads of a campaign: beyond a few for every core more of them only cost memory, up to a crash.

@@ -25,22 +25,22 @@ module gearbox_table
    implicit none(type, external)
    private
 
-   !> What is told of a pair.
-   integer, parameter :: told(13) = [quantity_rattle_class, quantity_verified, quantity_double_sided, quantity_film_minimum, &
+   !> What is recorded of a pair.
+   integer, parameter :: recorded(13) = [quantity_rattle_class, quantity_verified, quantity_double_sided, quantity_film_minimum, &
                                     quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_acceleration_rms, &
                                     quantity_film_force_rms, quantity_dissipated_power, quantity_verdict, quantity_motions, &
                                     quantity_loudest_class, quantity_loudest_acceleration_rms]
    integer, parameter :: place_minimum = 5, place_maximum = 6, place_rms = 7, place_force = 8, place_power = 9, &
                          place_verdict = 10, place_motions = 11
 
-   !> A row of the table: what is told of a pair, NaN where it is unknown.
+   !> A row of the table: what is recorded of a pair, NaN where it is unknown.
    type, public :: pair_row_t
       private
       character(name_limit) :: name = ''
       integer :: status = status_complete
       !> Checksum of the summary of the pair
       integer(int64) :: summary_checksum = 0_int64
-      real(dp) :: numbers(size(told)) = 0.0_dp
+      real(dp) :: numbers(size(recorded)) = 0.0_dp
       type(force_signal_t) :: film_force
       !> What is known of all its motions
       character(:), allocatable :: motions
@@ -67,8 +67,8 @@ contains
       row%name = scene%gear%name
       row%status = judged%status
       row%summary_checksum = checksum_in_summary(summary_path(scene))
-      do i = 1, size(told)
-         row%numbers(i) = quantity_value(told(i), judged)
+      do i = 1, size(recorded)
+         row%numbers(i) = quantity_value(recorded(i), judged)
       end do
       row%film_force = judged%film_force
       row%motions = motions_sentence(judged%coexisting)
@@ -93,14 +93,14 @@ contains
       type(word_t), intent(in) :: gears(:)
       !> Set if there is one
       type(error_t), allocatable, intent(out) :: error
-      type(word_t), allocatable :: told(:)
+      type(word_t), allocatable :: recorded(:)
       integer :: i, j
 
-      call read_from_summary(summary_path(gearbox), "   gear = ", told)
-      do i = 1, size(told)
-         if (any([(told(i)%text == gears(j)%text, j=1, size(gears))])) cycle
+      call read_from_summary(summary_path(gearbox), "   gear = ", recorded)
+      do i = 1, size(recorded)
+         if (any([(recorded(i)%text == gears(j)%text, j=1, size(gears))])) cycle
          call raise(error, exit_bad_input, summary_path(gearbox)//" belongs to another gearbox: it tells of the gear '"// &
-                    told(i)%text//"', which is not set now"//begin_anew)
+                    recorded(i)%text//"', which is not set now"//begin_anew)
          return
       end do
    end subroutine check_earlier_table
@@ -142,12 +142,12 @@ contains
          call summary%add('gear', trim(rows(i)%name))
          call summary%add('status', status_name(rows(i)%status))
          if (rows(i)%summary_checksum /= 0_int64) call summary%add('summary_checksum', rows(i)%summary_checksum)
-         do j = 1, size(told)
-            associate (name => quantity_table(told(j))%name, number => rows(i)%numbers(j))
+         do j = 1, size(recorded)
+            associate (name => quantity_table(recorded(j))%name, number => rows(i)%numbers(j))
                if (ieee_is_nan(number)) cycle
-               select case (quantity_table(told(j))%kind)
+               select case (quantity_table(recorded(j))%kind)
                case (a_code)
-                  call summary%add(trim(name), quantity_word(told(j), nint(number)))
+                  call summary%add(trim(name), quantity_word(recorded(j), nint(number)))
                case (a_flag)
                   call summary%add(trim(name), number > 0.0_dp)
                case default
@@ -218,7 +218,7 @@ contains
             class = '-'
             if (.not. ieee_is_nan(numbers(place_verdict))) &
                verdict = quantity_word(quantity_verdict, nint(numbers(place_verdict)))
-            if (.not. ieee_is_nan(numbers(1))) class = spaced(quantity_word(told(1), nint(numbers(1))))
+            if (.not. ieee_is_nan(numbers(1))) class = spaced(quantity_word(recorded(1), nint(numbers(1))))
             peak = numbers(place_maximum)
             ! What is unknown is compared with nothing.
             if (.not. ieee_is_nan(numbers(2))) class = class//trim(merge(', verified', '          ', numbers(2) > 0.0_dp))

@@ -1,7 +1,7 @@
 !> NAME.motions.rattle: a row for each motion that the starts of a scene lead to, with the state to start it again.
 module motions_table
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use coexisting_motions, only: told_motion_t
+   use coexisting_motions, only: motion_summary_t
    use errors, only: error_t
    use film_state, only: state_number_t
    use judged_scene, only: judged_scene_t
@@ -59,18 +59,18 @@ contains
    end subroutine write_motions
 
    !> A motion as a row.
-   pure function row_of(told, starts) result(row)
-      type(told_motion_t), intent(in) :: told
+   pure function row_of(motion, starts) result(row)
+      type(motion_summary_t), intent(in) :: motion
       !> All starts that were solved
       integer, intent(in) :: starts
       real(dp), allocatable :: row(:)
       real(dp) :: modulus
 
-      modulus = told%floquet_modulus
+      modulus = motion%floquet_modulus
       if (modulus < 0.0_dp) modulus = ieee_value(modulus, ieee_quiet_nan)
-      row = [told%state, real([told%class, told%period], dp), modulus, real(told%starts, dp), &
-             real(told%starts, dp)/real(starts, dp), merge(1.0_dp, 0.0_dp, [told%from_own_start, told%restarts]), &
-             told%acceleration_rms, told%film_force_rms, told%film_minimum]
+      row = [motion%state, real([motion%class, motion%period], dp), modulus, real(motion%starts, dp), &
+             real(motion%starts, dp)/real(starts, dp), merge(1.0_dp, 0.0_dp, [motion%from_own_start, motion%restarts]), &
+             motion%acceleration_rms, motion%film_force_rms, motion%film_minimum]
    end function row_of
 
 end module motions_table

@@ -100,7 +100,7 @@ contains
       logical :: is_chosen_in_nodes
 
       status = status_complete
-      is_chosen_in_nodes = scene%film%model == model_resolved .and. scene%film%told /= ''
+      is_chosen_in_nodes = scene%film%model == model_resolved .and. scene%film%model_words /= ''
       started = wall_seconds()
       solve_seconds = 0.0_dp
       prepared = prepare(scene)

@@ -17,7 +17,7 @@ module run_sweep
    use problem, only: of_film, of_velocity
    use progress, only: progress_t
    use quantities, only: need_count, needs_motion_verdicts, needs_orbit, needs_starts, needs_verification, &
-      needs_verified_impacts, quantities_told_in, quantity_model_limit, quantity_table
+      needs_verified_impacts, quantities_reported_in, quantity_model_limit, quantity_table
    use prepared_scene, only: prepare, prepared_scene_t
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
@@ -153,20 +153,20 @@ contains
       character(column_unit_bytes), allocatable, intent(out) :: units(:)
 
       names = [character(column_name_bytes) :: keys(scene%sweep%key)%name, 'direction', &
-               quantity_table(told_quantities(scene))%name]
-      units = [character(column_unit_bytes) :: keys(scene%sweep%key)%unit, '-', quantity_table(told_quantities(scene))%unit]
+               quantity_table(swept_quantities(scene))%name]
+      units = [character(column_unit_bytes) :: keys(scene%sweep%key)%unit, '-', quantity_table(swept_quantities(scene))%unit]
    end subroutine sweep_columns
 
    !> Codes of the quantities that this sweep tells; what is swept has its column already.
-   pure function told_quantities(scene) result(codes)
+   pure function swept_quantities(scene) result(codes)
       type(scene_t), intent(in) :: scene
       integer, allocatable :: codes(:)
 
-      codes = quantities_told_in('sweep')
-      if (scene%contact%backlash > 0.0_dp) codes = [codes, quantities_told_in('flanks')]
-      if (scene%gear%given) codes = [codes, quantities_told_in('gears')]
+      codes = quantities_reported_in('sweep')
+      if (scene%contact%backlash > 0.0_dp) codes = [codes, quantities_reported_in('flanks')]
+      if (scene%gear%given) codes = [codes, quantities_reported_in('gears')]
       codes = pack(codes, quantity_table(codes)%name /= keys(scene%sweep%key)%name)
-   end function told_quantities
+   end function swept_quantities
 
    !> Row of a value; what is unknown is 0.
    pure function sweep_row(scene, place, judged) result(row)
@@ -176,12 +176,12 @@ contains
       !> The motion there
       type(judged_scene_t), intent(in) :: judged
       real(dp), allocatable :: row(:)
-      integer, allocatable :: told(:)
+      integer, allocatable :: codes(:)
       integer :: i
 
-      allocate (told, source=told_quantities(scene))
+      allocate (codes, source=swept_quantities(scene))
       row = [scene%sweep%values(place), merge(1.0_dp, -1.0_dp, place <= scene%sweep%outward), &
-             (quantity_value(told(i), judged), i=1, size(told))]
+             (quantity_value(codes(i), judged), i=1, size(codes))]
       where (ieee_is_nan(row)) row = 0.0_dp
    end function sweep_row
 

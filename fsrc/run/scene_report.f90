@@ -87,15 +87,15 @@ contains
 
       words = ''
       do i = 1, size(quantity_table)
-         if (quantity_table(i)%part /= part .or. index(quantity_table(i)%told_in, 'log') == 0) cycle
+         if (quantity_table(i)%part /= part .or. index(quantity_table(i)%reported_in, 'log') == 0) cycle
          if (ieee_is_nan(quantity_value(i, judged))) cycle
-         words = words//', '//trim(quantity_table(i)%name)//' '//told_value(i, quantity_value(i, judged))
+         words = words//', '//trim(quantity_table(i)%name)//' '//value_words(i, quantity_value(i, judged))
       end do
       if (len(words) > 0) call log%line('  '//spaced(words(3:)))
    end subroutine report_part
 
    !> A known value as a person says it.
-   pure function told_value(quantity, value) result(words)
+   pure function value_words(quantity, value) result(words)
       !> Code of the quantity
       integer, intent(in) :: quantity
       real(dp), intent(in) :: value
@@ -113,7 +113,7 @@ contains
          words = short_text(value, row%digits)
          if (row%unit /= '-') words = words//' '//trim(row%unit)
       end if
-   end function told_value
+   end function value_words
 
    !> The film law of a scene in words.
    pure function law_sentence(scene) result(sentence)
@@ -316,7 +316,7 @@ contains
       do part = part_window, part_cost
          call report_part(log, judged, part)
       end do
-      if (scene%film%told /= '') call log%line('  the film is solved '//trim(scene%film%told))
+      if (scene%film%model_words /= '') call log%line('  the film is solved '//trim(scene%film%model_words))
       if (scene%output%series) call log%line('  '//result_path(scene))
       if (has_motions_table(scene)) call log%line('  '//motions_path(scene))
       if (scene%output%profiles) call log%line('  '//profiles_path(scene))

@@ -58,7 +58,7 @@ contains
       end do
       call summary%add('law', choice_word('film.law', scene%film%law))
       call summary%add('model', choice_word('film.model', scene%film%model))
-      if (scene%film%told /= '') call summary%add('model_text', trim(scene%film%told))
+      if (scene%film%model_words /= '') call summary%add('model_text', trim(scene%film%model_words))
       call summary%add('speed_used', judged%resolved%problem%contact%film%speed)
       call summary%add('speed_meaning', speed_meaning(scene))
       call add_derived(summary, scene)
@@ -126,7 +126,7 @@ contains
 
       do i = 1, size(quantity_table)
          quantity = quantity_table(i)
-         if (quantity%part /= part .or. index(quantity%told_in, 'summary') == 0) cycle
+         if (quantity%part /= part .or. index(quantity%reported_in, 'summary') == 0) cycle
          name = trim(quantity%name)
          if (quantity%kind == a_list) then
             if (part == part_errors) then

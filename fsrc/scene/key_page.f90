@@ -183,7 +183,7 @@ contains
              end_of_line//end_of_line//'| quantity | unit | told in | meaning |'//end_of_line//'|---|---|---|---|'//end_of_line
       do i = 1, size(quantity_table)
          quantity = quantity_table(i)
-         text = text//'| `'//trim(quantity%name)//'` | '//trim(quantity%unit)//' | '//trim(quantity%told_in)//' | '// &
+         text = text//'| `'//trim(quantity%name)//'` | '//trim(quantity%unit)//' | '//trim(quantity%reported_in)//' | '// &
                 trim(quantity%meaning)
          if (quantity%kind == a_code) text = text//' '//without_bars(words_with_codes(quantity), '; ')//'.'
          text = text//' |'//end_of_line

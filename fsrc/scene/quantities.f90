@@ -1,4 +1,4 @@
-!> The one table of quantities: what is told of a judged scene in summaries, columns of sweeps, rows of campaigns and logs, and
+!> The one table of quantities: what is reported of a judged scene in summaries, columns of sweeps, rows of campaigns and logs, and
 !> what the codes among them mean. Values are computed in judged_scene. fsrc/README.md says how a quantity is added.
 module quantities
    implicit none(type, external)
@@ -55,11 +55,11 @@ module quantities
          quantity_steps_cut, quantity_iterations_per_step
    end enum
 
-   !> What is told of each contact, and the codes of its quantities: that of the drive flank, that of the coast flank.
-   integer, parameter :: told_film_minimum = 1, told_film_maximum = 2, told_load_maximum = 3, told_impacts = 4, &
-                         told_impacts_per_period = 5, told_impact_load_maximum = 6, told_impact_velocity_maximum = 7, &
-                         told_impact_impulse_maximum = 8, told_impact_impulse_mean = 9, told_impact_times = 10, &
-                         told_impact_loads = 11, told_impact_velocities = 12, told_impact_impulses = 13
+   !> What is reported of each contact, and the codes of its quantities: that of the drive flank, that of the coast flank.
+   integer, parameter :: contact_film_minimum = 1, contact_film_maximum = 2, contact_load_maximum = 3, contact_impacts = 4, &
+                         contact_impacts_per_period = 5, contact_impact_load_maximum = 6, contact_impact_velocity_maximum = 7, &
+                         contact_impact_impulse_maximum = 8, contact_impact_impulse_mean = 9, contact_impact_times = 10, &
+                         contact_impact_loads = 11, contact_impact_velocities = 12, contact_impact_impulses = 13
    integer, parameter :: quantities_of_contacts(2, 13) = reshape([ &
       quantity_film_minimum, quantity_coast_film_minimum, &
       quantity_film_maximum, quantity_coast_film_maximum, &
@@ -84,9 +84,9 @@ module quantities
       integer :: kind
       integer :: part
       integer :: need
-      !> Where it is told, besides the words of its codes: any of summary, sweep, flanks (a sweep of scenes with a backlash),
+      !> Where it is reported, besides the words of its codes: any of summary, sweep, flanks (a sweep of scenes with a backlash),
       !> gears (a sweep of gears), campaign (a word of its key record), log
-      character(28) :: told_in
+      character(28) :: reported_in
       character(168) :: meaning
       !> Words of the codes, from the first code on, a bar between two
       character(160) :: words = ''
@@ -382,13 +382,13 @@ module quantities
 
    !> Names of those that a campaign can record, blanks between them. Element by element, as flang 19 folds no other way.
    integer, private :: i
-   logical, parameter, private :: in_campaigns(*) = [(index(quantity_table(i)%told_in, 'campaign') > 0, &
+   logical, parameter, private :: in_campaigns(*) = [(index(quantity_table(i)%reported_in, 'campaign') > 0, &
                                                       i=1, size(quantity_table))]
    character(*), parameter, private :: names(*) = [(quantity_table(i)%name, i=1, size(quantity_table))]
    character(*), parameter :: recordable = transfer(pack(names, in_campaigns), repeat(' ', len(names)*count(in_campaigns)))
 
    !> Those of them that are no lists: a threshold can be one of theirs.
-   logical, parameter, private :: is_measurable(*) = [(index(quantity_table(i)%told_in, 'campaign') > 0 .and. &
+   logical, parameter, private :: is_measurable(*) = [(index(quantity_table(i)%reported_in, 'campaign') > 0 .and. &
                                                        quantity_table(i)%kind /= a_list, i=1, size(quantity_table))]
    character(*), parameter :: measurable = transfer(pack(names, is_measurable), repeat(' ', len(names)*count(is_measurable)))
    !> Words of rattle_class
@@ -479,13 +479,13 @@ contains
       if (any(quantity_table(quantity)%kind == [a_code, a_flag])) verification_of = quantity_verdict_verified
    end function verification_of
 
-   !> Codes of the quantities that are told somewhere, in the order of the table.
-   pure function quantities_told_in(place) result(codes)
+   !> Codes of the quantities that are reported somewhere, in the order of the table.
+   pure function quantities_reported_in(place) result(codes)
       !> summary, sweep, campaign or log
       character(*), intent(in) :: place
       integer, allocatable :: codes(:)
 
-      codes = pack(quantity_table%code, index(quantity_table%told_in, place) > 0)
-   end function quantities_told_in
+      codes = pack(quantity_table%code, index(quantity_table%reported_in, place) > 0)
+   end function quantities_reported_in
 
 end module quantities

@@ -235,7 +235,7 @@ module scene_types
       !> Whether the closure, which the model is then, or nodes of pressure are chosen by what the closure tells; once it is chosen,
       !> why, and whether it is the closure because nodes stopped
       logical :: automatic = .false., nodes_stopped = .false.
-      character(400) :: told = ''
+      character(400) :: model_words = ''
       integer :: rupture = rupture_half_pi
       integer :: rupture_solver = rupture_solver_fast
       !> Nodes of pressure across a contact

@@ -11,7 +11,7 @@ module coexisting_motions
    integer, parameter, public :: unknown_verdict = -1
 
    !> One of them.
-   type, public :: told_motion_t
+   type, public :: motion_summary_t
       !> Code of its class
       integer :: class = 0
       !> Its verdict, as of verdict_of, or unknown_verdict
@@ -31,12 +31,12 @@ module coexisting_motions
       real(dp) :: acceleration_rms = 0.0_dp
       real(dp) :: film_force_rms = 0.0_dp
       real(dp) :: film_minimum = 0.0_dp
-   end type told_motion_t
+   end type motion_summary_t
 
    !> All of them.
    type, public :: coexisting_motions_t
       !> That of the scene first; not allocated: nothing is known of others
-      type(told_motion_t), allocatable :: motions(:)
+      type(motion_summary_t), allocatable :: motions(:)
       !> Starts whose motions were solved, and those of them that did not settle on one that repeats
       integer :: starts_solved = 0
       integer :: unsettled_starts = 0

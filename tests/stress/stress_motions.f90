@@ -8,7 +8,7 @@
 program stress_motions
    use, intrinsic :: iso_fortran_env, only: error_unit, int64
    use clock, only: wall_seconds
-   use coexisting_motions, only: coexisting_motions_t, told_motion_t
+   use coexisting_motions, only: coexisting_motions_t, motion_summary_t
    use engine, only: motion_state_t
    use gear_motions, only: draw_gear_scene, drawn_keys, gear_scene_t, motions_told, read_pairs, row_told, told_row_t
    use impact_steps, only: start_of_tooth, tooth_of_lane, tooth_t
@@ -278,7 +278,7 @@ contains
 
    !> A told motion.
    function motion_words(motion) result(words)
-      type(told_motion_t), intent(in) :: motion
+      type(motion_summary_t), intent(in) :: motion
       character(:), allocatable :: words
 
       words = trim(quantity_word(quantity_rattle_class, motion%class))//' '//short_text(motion%acceleration_rms, 4)// &

@@ -2,7 +2,7 @@
 module test_coexisting_motions
    use checks, only: check_list_t
    use coexisting_motions, only: coexisting_motions_t, largest_missed_share, loudest_motion, motions_sentence, quietest_motion, &
-      told_motion_t
+      motion_summary_t
    use kinds, only: dp
    use motion_start, only: one_by_newmark
    use rattle_class, only: class_idle, class_quiet
@@ -42,7 +42,7 @@ contains
 
       call checks%check(motions_sentence(told) == '', 'words: nothing is known')
       allocate (told%motions(1))
-      told%motions(1) = told_motion_t(class=class_quiet, period=1, starts=1, from_own_start=.true., &
+      told%motions(1) = motion_summary_t(class=class_quiet, period=1, starts=1, from_own_start=.true., &
                                        acceleration_rms=7.8_dp)
       told%starts_solved = 1
       call checks%check(motions_sentence(told) == 'one start: other motions were not looked for (solver.starts)', &
@@ -62,7 +62,7 @@ contains
       told%unsettled_starts = 0
       told%drawn_starts = 26
       told%motions(1)%starts = 21
-      told%motions = [told%motions, told_motion_t(class=class_idle, period=1, starts=8, acceleration_rms=51.0_dp)]
+      told%motions = [told%motions, motion_summary_t(class=class_idle, period=1, starts=8, acceleration_rms=51.0_dp)]
       call checks%check(motions_sentence(told) == '2 motions: quiet 7.8 m/s2 (from rest, 21 of 29 starts), idle 51 m/s2 '// &
                         '(8 of 29); any other has less than 11 % of the sampled starts (95 %)' .or. &
                         motions_sentence(told) == '2 motions: quiet 7.800 m/s2 (from rest, 21 of 29 starts), idle 51.00 m/s2 '// &
@@ -77,8 +77,8 @@ contains
       type(coexisting_motions_t) :: told
 
       call checks%check(loudest_motion(told) == 0 .and. quietest_motion(told) == 0, 'loudest: none is known')
-      told%motions = [told_motion_t(acceleration_rms=2.0_dp), told_motion_t(acceleration_rms=3.0_dp), &
-                      told_motion_t(acceleration_rms=1.0_dp)]
+      told%motions = [motion_summary_t(acceleration_rms=2.0_dp), motion_summary_t(acceleration_rms=3.0_dp), &
+                      motion_summary_t(acceleration_rms=1.0_dp)]
       call checks%check(loudest_motion(told) == 2 .and. quietest_motion(told) == 3, 'loudest and quietest')
    end subroutine test_loudest
 

@@ -3,7 +3,7 @@ module test_judged_scene
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use canonical_scenes, only: loose_gear
    use checks, only: check_list_t
-   use coexisting_motions, only: told_motion_t
+   use coexisting_motions, only: motion_summary_t
    use impacts, only: impact_t
    use judged_scene, only: judged_scene_t, quantity_list, quantity_value
    use kinds, only: dp
@@ -88,11 +88,11 @@ contains
       judged%verification%harmonic_errors = [58.0_dp, 59.0_dp]
       judged%orbit%period = 2
       judged%orbit%multipliers = [(0.3_dp, -0.4_dp), (0.1_dp, 0.0_dp)]
-      judged%coexisting%motions = [told_motion_t(class=class_idle, acceleration_rms=82.0_dp, film_force_rms=83.0_dp, &
+      judged%coexisting%motions = [motion_summary_t(class=class_idle, acceleration_rms=82.0_dp, film_force_rms=83.0_dp, &
                                                 film_minimum=84.0_dp), &
-                                   told_motion_t(class=class_irregular, verdict=1, acceleration_rms=85.0_dp, &
+                                   motion_summary_t(class=class_irregular, verdict=1, acceleration_rms=85.0_dp, &
                                                  film_force_rms=86.0_dp, film_minimum=87.0_dp), &
-                                   told_motion_t(class=class_creep, acceleration_rms=81.0_dp, film_force_rms=88.0_dp, &
+                                   motion_summary_t(class=class_creep, acceleration_rms=81.0_dp, film_force_rms=88.0_dp, &
                                                  film_minimum=89.0_dp)]
       judged%coexisting%starts_solved = 29
       judged%coexisting%unsettled_starts = 2

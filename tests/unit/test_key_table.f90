@@ -46,7 +46,7 @@ contains
       do i = 1, size(quantity_table)
          name = trim(quantity_table(i)%name)
          call checks%check(quantity_table(i)%code == i .and. quantity_code(name) == i, name//': its code is its place')
-         call checks%check(index(quantity_table(i)%told_in, 'campaign') > 0 .eqv. &
+         call checks%check(index(quantity_table(i)%reported_in, 'campaign') > 0 .eqv. &
             word_position(trim(keys(find_key('campaign.record'))%choices), name) > 0, name//': a word of the key')
       end do
       call checks%check(quantity_code('everything') == 0, 'no quantity of this name')

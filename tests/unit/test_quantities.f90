@@ -11,7 +11,7 @@ module test_quantities
    use problem, only: has_elastic_teeth
    use quantities, only: a_list, a_number, least_verdict_with_impacts, needs_impacts, needs_motion_verdicts, needs_starts, &
       quantity_impacts_per_period_drive, quantity_gear_acceleration_maximum, quantity_gear_acceleration_rms, &
-      quantity_impacts_verified, quantity_verdict, quantity_verdict_verified, verification_of, quantities_told_in, &
+      quantity_impacts_verified, quantity_verdict, quantity_verdict_verified, verification_of, quantities_reported_in, &
       quantity_lyapunov_exponent, quantity_impacts_coast, quantity_drag_bearing, quantity_drag_churning, &
       quantity_drag_synchroniser, quantity_drag_torque, quantity_inertia_ratio, quantity_central_film, quantity_closure_range, &
       quantity_film_at_pressure_maximum, quantity_film_model, quantity_pressure_error, quantity_pressure_resolved, &
@@ -116,13 +116,13 @@ contains
       integer, allocatable :: told(:)
       integer :: i, column
 
-      allocate (told, source=quantities_told_in('sweep'))
+      allocate (told, source=quantities_reported_in('sweep'))
       do i = 1, size(told)
          if (any(told(i) == [quantity_status, quantity_periods_solved])) cycle
          call check_same(told(i), quantity_value(told(i), swept), 'in a sweep')
       end do
       deallocate (told)
-      allocate (told, source=quantities_told_in('campaign'))
+      allocate (told, source=quantities_reported_in('campaign'))
       column = 0
       do i = 1, size(told)
          column = column + 1
@@ -175,7 +175,7 @@ contains
       scene%solver%accuracy = 1.0e-8_dp
       scene%solver%periods = 400
       scene%campaign%samples_per_period = 512
-      allocate (recorded, source=quantities_told_in('campaign'))
+      allocate (recorded, source=quantities_reported_in('campaign'))
       scene%campaign%record = recorded
       scene%resolved_input = ''
    end function steady_scene
