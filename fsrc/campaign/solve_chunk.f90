@@ -235,7 +235,6 @@ contains
          request%forecast = request%until_steady
          if (.not. needed(needs_impacts)) request%impact_limit = 0.0_dp
       end associate
-      prepared%in_gearbox = .false.
    end function prepared_row
 
    !> Solve a row again in nodes of pressure, as a single scene is. Where nodes stop, and where a motion does not start from rest, the

@@ -16,8 +16,8 @@ module judge_group
    use periodic_orbit, only: attracting_period, find_periodic_orbit
    use prepared_scene, only: prepared_scene_t
    use problem, only: of_velocity
-   use quantities, only: needs_multipliers, needs_orbit, needs_regime, needs_spectrum, needs_starts, needs_verification, &
-      needs_verified_impacts
+   use quantities, only: needs_film_force, needs_multipliers, needs_orbit, needs_regime, needs_spectrum, needs_starts, &
+      needs_verification, needs_verified_impacts
    use rattle_class, only: class_irregular_so_far, note_orbit
    use regime_check, only: check_regime
    use row_motions, only: motion_from_rest
@@ -171,7 +171,7 @@ contains
             record%lowest = judged%extremes%lowest
             record%highest = judged%extremes%highest
          end if
-         if (scene%in_gearbox) call note_film_force(scene, group, judged)
+         if (needed(needs_film_force) .and. scene%in_gearbox) call note_film_force(scene, group, judged)
          if (needed(needs_regime)) then
             associate (pressure => judged%extremes%highest(seen_pressure))
                judged%regime = check_regime(problem%contact%film, pressure%value, thinnest_film(problem, pressure%state))

@@ -16,7 +16,7 @@ module run_sweep
    use starting_state, only: keep_by_contacts, kept_by_contacts
    use problem, only: of_film, of_velocity
    use progress, only: progress_t
-   use quantities, only: need_count, needs_motion_verdicts, needs_orbit, needs_starts, needs_verification, &
+   use quantities, only: need_count, needs_film_force, needs_motion_verdicts, needs_orbit, needs_starts, needs_verification, &
       needs_verified_impacts, quantities_reported_in, quantity_model_limit, quantity_table
    use prepared_scene, only: prepare, prepared_scene_t
    use result_format, only: column_name_bytes, column_unit_bytes
@@ -27,7 +27,7 @@ module run_sweep
    use scene_status, only: is_success, status_complete, status_interrupted, status_not_written, status_sentence
    use scene_summary, only: add_head, add_results
    use scene_types, only: scene_t, set_number
-   use signals, only: caught_signal
+   use signals, only: caught_signal, must_stop
    use summary_file, only: summary_t
    use text, only: counted, integer_text, short_text
    use word_list, only: word_t
@@ -214,6 +214,7 @@ contains
          start = start_of(problem)
          if (state%film > 0.0_dp) call keep_by_contacts(problem, state%kept, start%numbers)
          call solve_and_judge(prepared, [start], needs_of_values(), space, judged_values, error)
+         if (must_stop() .or. allocated(error)) return
          judged = judged_values(1)
          state = carried_state_t()
          if (.not. is_success(judged%status)) return
@@ -228,7 +229,8 @@ contains
       logical :: needed(need_count)
 
       needed = .true.
-      needed([needs_verification, needs_verified_impacts, needs_orbit, needs_starts, needs_motion_verdicts]) = .false.
+      needed([needs_verification, needs_verified_impacts, needs_orbit, needs_starts, needs_motion_verdicts, needs_film_force]) = &
+         .false.
    end function needs_of_values
 
    !> How the sweep ended, whose motions may have failed.

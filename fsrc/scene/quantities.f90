@@ -15,7 +15,7 @@ module quantities
                                  needs_coast_film_range = 8, needs_position_range = 9, needs_deflection = 10, &
                                  needs_spectrum = 11, needs_verification = 12, needs_impacts = 13, needs_verified_impacts = 14, &
                                  needs_orbit = 15, needs_closure_range = 16, needs_starts = 17, needs_motion_verdicts = 18, &
-                                 needs_multipliers = 19, need_count = 19
+                                 needs_multipliers = 19, needs_film_force = 20, need_count = 20
 
    !> Parts of the summary, in their order.
    integer, parameter :: part_scene = 1, part_window = 2, part_spectrum = 3, part_class = 4, part_errors = 5, &

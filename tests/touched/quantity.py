@@ -23,7 +23,6 @@ CASE = """         case (quantity_acceleration_swing)
 def change(tree: Tree) -> None:
     tree.put(TABLE, "quantity_acceleration_rms, quantity_gear_acceleration_rms,", NAME)
     tree.put(TABLE, "      quantity_t(quantity_acceleration_rms,", ROW)
-    tree.put(VALUES, "quantity_acceleration_rms, ", NAME)
     tree.put(VALUES, "         case (quantity_load_minimum)\n", CASE)
 
 
