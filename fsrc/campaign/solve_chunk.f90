@@ -8,22 +8,22 @@ module solve_chunk
    use judged_scene, only: film_model_stopped, judged_scene_t, quantity_value
    use key_table, only: find_key
    use force, only: force_of, largest_oscillation
-   use grid_blocks, only: block_scenes
-   use handed_motions, only: find_other_motions
+   use grid_blocks, only: block_scenes, neighbours_of
+   use handed_motions, only: hand_on_motions, neighbours_t
    use judge_group, only: judgement_space_t
    use kinds, only: dp, int64
    use memory_need, only: window_bytes
+   use other_motions, only: find_other_motions
    use prepared_scene, only: prepare, prepared_scene_t, resolved_scene_t
    use quantities, only: asks_to_verify, need_count, needs_impacts, needs_motion_verdicts, needs_of, needs_of_choice, &
       needs_orbit, needs_spectrum, needs_starts, needs_verification, quantity_film_model
-   use row_motions, only: row_motions_t
    use sampling, only: chunk_values, largest_value, sample_plan_t
    use scene_solution, only: solve_and_judge, solve_in_memory
    use scene_status, only: status_invalid
    use scene_types, only: least_static_load, scene_t
    use schedule, only: cost_order
    use signals, only: must_stop
-   use varied_keys, only: is_valid_scene, set_varied_keys
+   use varied_keys, only: is_valid_scene, pair_position, set_varied_keys
    use verify_group, only: compared
    implicit none(type, external)
    private
@@ -172,7 +172,6 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(prepared_scene_t) :: scenes(size(values, 2))
       type(judged_scene_t), allocatable :: judged(:)
-      type(row_motions_t) :: found(size(values, 2))
       type(reason_t) :: reason
       real(dp) :: costs(size(values, 2))
       integer :: order(size(values, 2)), i
@@ -190,20 +189,14 @@ contains
       allocate (judged(size(solved)), in_nodes(0))
       call solve_and_judge(scenes(solved), start_of(scenes(solved)%resolved%problem), needed, space, judged, error)
       if (must_stop() .or. allocated(error)) return
-      if (needed(needs_starts)) then
-         do i = 1, size(found)
-            allocate (found(i)%settled(0))
-         end do
-         do i = 1, size(solved)
-            found(solved(i)) = row_motions_t(judged(i)%coexisting, judged(i)%settled)
-         end do
-         if (has_starts(scene)) call find_other_motions(scene, plan, first, scenes, needed(needs_motion_verdicts), solved, &
-                                                        space%tight, found, error)
-         if (must_stop() .or. allocated(error)) return
-      end if
+      if (needed(needs_starts)) call find_other_motions(scenes(solved), needed(needs_motion_verdicts), space%tight, judged, error)
+      if (must_stop() .or. allocated(error)) return
+      if (scenes_of_block(scene, plan) > 1) &
+         call hand_on_motions(scenes(solved), neighbours_of_rows(plan, first, solved), needed(needs_motion_verdicts), space%tight, &
+                              judged, error)
+      if (must_stop() .or. allocated(error)) return
       do i = 1, size(solved)
          associate (place => solved(i))
-            judged(i)%coexisting = found(place)%told
             call record_row(scene, first + int(place - 1, int64), values(:, place), judged(i), rows(:, place))
             if (.not. scene%film%automatic) cycle
             reason = reason_for_nodes(judged(i), scenes(place)%spectrum%impact_limit)
@@ -221,6 +214,25 @@ contains
                          rows(:, order(i)))
       end do
    end subroutine solve_batch
+
+   !> Neighbours of the rows of a batch on the grid, those of them that are solved.
+   pure function neighbours_of_rows(plan, first, solved) result(neighbours)
+      !> The plan, and number of the first scene of the batch
+      type(sample_plan_t), intent(in) :: plan
+      integer(int64), intent(in) :: first
+      !> Places of the rows in the batch
+      integer, intent(in) :: solved(:)
+      type(neighbours_t) :: neighbours(size(solved))
+      integer :: i, k
+
+      do i = 1, size(solved)
+         associate (others => neighbours_of(plan, first + int(solved(i) - 1, int64), plan%positions /= pair_position()), &
+                    places => neighbours(i)%places)
+            places = [(findloc(solved, int(others(k) - first) + 1, dim=1), k=1, size(others))]
+            places = pack(places, places > 0)
+         end associate
+      end do
+   end function neighbours_of_rows
 
    !> A row that is ready to be solved.
    pure type(prepared_scene_t) function prepared_row(scene, needed) result(prepared)

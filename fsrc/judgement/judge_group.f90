@@ -20,7 +20,6 @@ module judge_group
       needs_verification, needs_verified_impacts
    use rattle_class, only: class_irregular_so_far, note_orbit
    use regime_check, only: check_regime
-   use row_motions, only: motion_from_rest
    use scene_group, only: scene_group_t
    use scene_orbit, only: nearby_orbit
    use scene_status, only: is_success, status_steady
@@ -31,6 +30,7 @@ module judge_group
    use vibration_severity, only: severity_of_record, severity_of_samples
    use window_extremes, only: extremes_of_record, extremes_of_samples
    use window_impacts, only: impacts_of_record, impacts_of_samples
+   use window_motion, only: note_own_motion
    use window_record, only: window_record_t
    implicit none(type, external)
    private
@@ -83,7 +83,8 @@ contains
       if (must_stop() .or. allocated(error)) return
       do i = 1, size(scenes)
          judged(i)%orbit = space%group%orbits(i)
-         if (needed(needs_starts)) call motion_from_rest(scenes(i), i, space%group, judged(i)%coexisting, judged(i)%settled)
+         if (.not. (needed(needs_starts) .and. judged(i)%judged)) cycle
+         if (.not. scenes(i)%resolved%problem%contact%film%in_nodes) call note_own_motion(scenes(i), i, space%group, judged(i))
       end do
    end subroutine judge_scenes
 

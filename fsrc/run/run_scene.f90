@@ -5,7 +5,7 @@ module run_scene
    use engine, only: checkpoint_t
    use errors, only: error_t
    use finished_files, only: place_files
-   use follow_starts, only: find_all_motions
+   use single_motions, only: find_all_motions
    use gearbox_table, only: whole_gearbox
    use judge_group, only: judge_scenes, judgement_space_t
    use judged_scene, only: judged_scene_t
@@ -133,11 +133,10 @@ contains
             judged%ending = space%group%endings(1)
          else
             call judge_scenes([prepared], needs_of_summary(scene%spectrum%verify), space, judged_scenes, error)
+            if (.not. allocated(error)) call find_all_motions(scene, started, space%tight, judged_scenes, error)
             judged = judged_scenes(1)
          end if
          judged%nodes_stopped = scene%film%nodes_stopped
-         if (judged%judged .and. .not. allocated(error) .and. scene%film%model /= model_resolved) &
-            call find_all_motions(scene, started, judged, error)
          ! A signal that came meanwhile has cut the verification short.
          if (is_success(judged%status) .and. caught_signal() /= 0) judged%status = status_interrupted
          if (judged%judged) call recorder%add_extremes(space%group%records(1), &

@@ -455,7 +455,7 @@ contains
 
       needed = .true.
       needed([needs_verification, needs_verified_impacts, needs_multipliers]) = verified
-      needed([needs_orbit, needs_starts, needs_motion_verdicts]) = .false.
+      needed([needs_orbit, needs_motion_verdicts]) = .false.
    end function needs_of_summary
 
    !> Whether some quantities ask for the scene to be solved again, tighter.

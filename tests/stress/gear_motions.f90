@@ -5,7 +5,6 @@ module gear_motions
    use completed_scene, only: complete_scene
    use coexisting_motions, only: coexisting_motions_t
    use errors, only: error_t, fault_list_t
-   use follow_starts, only: find_all_motions
    use judged_scene, only: judged_scene_t
    use kinds, only: dp, int64
    use quantities, only: quantity_acceleration_rms, quantity_loudest_acceleration_rms, quantity_motions, &
@@ -14,8 +13,10 @@ module gear_motions
    use random_walk, only: next_uniform, random_state_t
    use prepared_scene, only: resolve, resolved_scene_t
    use sampling, only: plan_grid, sample_plan_t
+   use scene_group, only: scene_group_t
    use scene_reader, only: override_t, read_scenes
    use scene_status, only: is_success
+   use single_motions, only: find_all_motions
    use scene_types, only: scene_t, task_campaign, task_motion
    use judge_group, only: judgement_space_t
    use solve_chunk, only: solve_scenes
@@ -133,7 +134,8 @@ contains
       !> Whether there was anything to tell
       logical, intent(out) :: judged
       type(scene_t) :: scene
-      type(judged_scene_t) :: result
+      type(judged_scene_t) :: result(1)
+      type(scene_group_t) :: space
       type(error_t), allocatable :: error
 
       scene = drawn%scene
@@ -142,14 +144,14 @@ contains
       scene%solver%starts = starts_alone
       scene%solver%periods = 200
       scene%solver%kept_per_period = 512
-      call solve_in_memory(scene, result, error)
-      judged = .not. allocated(error) .and. is_success(result%status) .and. result%judged
+      call solve_in_memory(scene, result(1), error)
+      judged = .not. allocated(error) .and. is_success(result(1)%status) .and. result(1)%judged
       periods = 0
       if (.not. judged) return
-      call find_all_motions(scene, 0.0_dp, result, error)
+      call find_all_motions(scene, 0.0_dp, space, result, error)
       judged = .not. allocated(error)
-      told = result%coexisting
-      periods = [result%ending%periods, told%extra_periods]
+      told = result(1)%coexisting
+      periods = [result(1)%ending%periods, told%extra_periods]
    end subroutine motions_told
 
    !> What the row in the middle of a small grid over speed and temperature tells.
