@@ -56,7 +56,7 @@ program main
 
 contains
 
-   !> A ready input, or every key, or those of a group. A group that has the name of a ready input is told by its &.
+   !> A ready input, or every key, or those of a group. A group that has the name of a ready input is distinguished by its &.
    function template_of(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text

@@ -1,6 +1,6 @@
 !> Scenes from a CSV file: a header of group.key names, then one line of numbers for every scene. Commas
 !> separate, names may stand in quotes, lines end as on Unix or Windows; nothing else is understood, and
-!> every fault is told with its line and column. The text is read in blocks.
+!> every fault is reported with its line and column. The text is read in blocks.
 module csv_samples
    use csv_fields, only: csv_text_t, field_t
    use errors, only: error_t, fault_list_t
@@ -175,7 +175,7 @@ contains
                             ' columns, the header '//integer_text(columns))
          end if
          samples%read = row
-         ! What comes after a full list of faults is not told anyway.
+         ! What comes after a full list of faults is not reported anyway.
          if (faults%not_kept() > 0) return
       end do
    end subroutine read_rows

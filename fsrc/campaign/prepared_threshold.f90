@@ -51,7 +51,7 @@ contains
       before = faults%count()
       call check_key(scene, file, threshold%axis, faults)
       if (faults%count() > before) then
-         ! The faults of the axes are told with those of the key.
+         ! The faults of the axes are reported with those of the key.
          call prepare_campaign(scene, file, hurried, threshold%traces, faults)
          return
       end if

@@ -61,7 +61,7 @@ contains
       if (faults%count() == 0) self%warnings = self%campaign%warnings
    end subroutine prepare
 
-   !> How many scenes, how large the result, how long it may take; what was not looked at for lack of time is told.
+   !> How many scenes, how large the result, how long it may take; what was not looked at for lack of time is reported.
    function check_lines(self) result(words)
       class(campaign_task_t), intent(in) :: self
       character(:), allocatable :: words

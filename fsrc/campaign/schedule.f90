@@ -8,7 +8,7 @@ module schedule
    integer, parameter :: largest_chunk = 8192
    integer(int64), parameter :: most_chunks = 16384_int64
 
-   !> What a thread takes at a time [s]: a signal or a kill loses it, and no progress is told before it is done. Scenes that are
+   !> What a thread takes at a time [s]: a signal or a kill loses it, and no progress is reported before it is done. Scenes that are
    !> many times slower than those before them still take less than ten seconds.
    real(dp), parameter :: wanted_seconds = 4.0_dp
    !> How many times as many scenes it takes at most as before, and at most at all

@@ -226,11 +226,10 @@ contains
       integer :: i, k
 
       do i = 1, size(solved)
-         associate (others => neighbours_of(plan, first + int(solved(i) - 1, int64), plan%positions /= pair_position()), &
-                    places => neighbours(i)%places)
-            places = [(findloc(solved, int(others(k) - first) + 1, dim=1), k=1, size(others))]
-            places = pack(places, places > 0)
+         associate (others => neighbours_of(plan, first + int(solved(i) - 1, int64), plan%positions /= pair_position()))
+            allocate (neighbours(i)%places, source=[(findloc(solved, int(others(k) - first) + 1, dim=1), k=1, size(others))])
          end associate
+         neighbours(i)%places = pack(neighbours(i)%places, neighbours(i)%places > 0)
       end do
    end function neighbours_of_rows
 

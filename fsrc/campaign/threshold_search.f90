@@ -91,7 +91,7 @@ contains
       end if
    end function scan_places
 
-   !> A quantity whose side of the level is known: NaN where the quantity is told to be below the level and may be larger.
+   !> A quantity whose side of the level is known: NaN where the quantity is reported to be below the level and may be larger.
    elemental real(dp) function known_side(quantity, is_bound, level)
       real(dp), intent(in) :: quantity
       !> Above zero: the quantity may be larger

@@ -14,7 +14,7 @@ module axis_unit
    type, public :: axis_unit_t
       !> One of the above
       integer :: kind = no_axis
-      !> As it is told; empty if the name says none
+      !> As it is reported; empty if the name says none
       character(6) :: word = ''
       !> One of it in seconds or degrees
       real(dp) :: size = 1.0_dp

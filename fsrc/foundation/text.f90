@@ -139,7 +139,7 @@ contains
       real(dp), intent(in) :: error
       !> The number; of a relative error 1
       real(dp), intent(in) :: number
-      !> Significant digits of the number as it is told, 1 to 17
+      !> Significant digits of the number as it is reported, 1 to 17
       integer, intent(in) :: digits
       character(:), allocatable :: text
       real(dp) :: rounding

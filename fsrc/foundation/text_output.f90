@@ -13,7 +13,8 @@ module text_output
 
    !> Module state is unavoidable here: the standard output is one for all, and its fate is asked for at the end.
    character(:), allocatable :: lost
-   !> What each work has told before its turn, whose turn it is (0: works do not share the output), and which work this thread does
+   !> What each work has reported before its turn, whose turn it is (0: works do not share the output), and which work this thread
+   !> does
    type(word_t), allocatable :: waiting(:)
    integer :: turn = 0, own = 0
    !> Whether works share the output: it changes only while one thread is at work, the turn while that thread holds the lock
@@ -65,7 +66,7 @@ contains
       if (shared) call omp_unset_nest_lock(text_lock)
    end subroutine unlock_texts
 
-   !> What this thread tells from here on is told for a work.
+   !> What this thread reports from here on is reported for a work.
    subroutine speak_for(work)
       !> From 1, 0: for none
       integer, intent(in) :: work
@@ -73,7 +74,7 @@ contains
       own = work
    end subroutine speak_for
 
-   !> The work whose turn it is has told all: that of the next one comes, first of all what it has told by now.
+   !> The work whose turn it is has reported all: that of the next one comes, first of all what it has reported by now.
    subroutine end_turn()
       call lock_texts()
       turn = turn + 1
@@ -121,7 +122,7 @@ contains
       if (.not. allocated(lost)) lost = place
    end subroutine note_lost_text
 
-   !> Where words were lost first; empty if all that was told has been written.
+   !> Where words were lost first; empty if all that was reported has been written.
    pure function lost_text() result(place)
       character(:), allocatable :: place
 

@@ -9,7 +9,7 @@ module value_range
 contains
 
    !> Smallest and largest number of an array, in one pass of whole vectors: minval and maxval wait for every single
-   !> comparison. Which of -0 and 0 is told is not said.
+   !> comparison. Which of -0 and 0 is reported is not said.
    pure subroutine range_of(values, smallest, largest)
       !> One or more numbers, none of them NaN
       real(dp), intent(in) :: values(:)

@@ -1,4 +1,4 @@
-!> What an input is told of the scene that follows from it: faults, warnings, and the numbers that follow as comments of the
+!> What is reported of the scene that follows from an input: faults, warnings, and the numbers that follow as comments of the
 !> resolved input.
 module completed_scene
    use derived_scene, only: accelerations_of, derive, derived_rules

@@ -45,7 +45,7 @@ module gear_contact
 
 contains
 
-   !> The contact of a gear pair. What is wrong with it is told with the name of the value that would have to change.
+   !> The contact of a gear pair. What is wrong with it is reported with the name of the value that would have to change.
    pure subroutine find_contact(pair, drag_torque, shaft_speed, contact, wrong, message)
       !> The pair: teeth z_1 and z_2, normal module m_n, centre distance a, place xi on the line of action
       type(gear_t), intent(in) :: pair

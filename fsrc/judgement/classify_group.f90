@@ -121,7 +121,7 @@ contains
       !> Set if there is no memory for as many samples as are needed; the classes are of no use then
       type(error_t), allocatable, intent(out) :: error
       type(window_record_t) :: windows(size(scenes))
-      type(rattle_verdict_t), allocatable :: by_samples(:)
+      type(rattle_verdict_t) :: by_samples(size(scenes))
       integer, allocatable :: left(:), alike(:)
       integer :: finer, together, first, i
 
@@ -157,46 +157,54 @@ contains
             together = max(1, samples_together/(i*finer))
             do first = 1, size(alike), together
                if (must_stop()) return
-               call classify_alike(alike(first:min(first + together - 1, size(alike))), i)
+               associate (these => alike(first:min(first + together - 1, size(alike))))
+                  by_samples(these) = finer_classes(scenes(these), records(these), i, finer, by_samples(these))
+               end associate
             end do
          end do
+         do i = 1, size(left)
+            if (.not. by_samples(left(i))%spectrum%sampling_sufficient) cycle
+            verdicts(left(i)) = by_samples(left(i))
+            classified_by(left(i)) = finer
+         end do
       end do
-
-   contains
-
-      !> Solve windows of as many periods with the samples there are to be now, and classify them by these.
-      subroutine classify_alike(place, count)
-         integer, intent(in) :: place(:)
-         integer, intent(in) :: count
-         type(window_record_t) :: found(size(place))
-         type(ending_t) :: endings(size(place))
-         real(dp), allocatable :: states(:, :, :), accelerations(:)
-         integer :: k
-
-         allocate (states(count*finer, maxval(state_size(scenes(place)%resolved%problem)), size(place)), source=0.0_dp)
-         allocate (accelerations(count*finer))
-         do k = 1, size(place)
-            found(k)%wants = .false.
-         end do
-         call unlock_texts()
-         call solve_motions(scenes(place)%resolved%problem, records(place)%start, &
-                            request_t(accuracy=scenes(1)%request%accuracy, periods=count, samples_per_period=finer, &
-                                      sampled_periods=count), states, endings, records=found)
-         call lock_texts()
-         do k = 1, size(place)
-            if (.not. is_success(endings(k)%status)) cycle
-            associate (own => place(k), scene => scenes(place(k)))
-               call accelerations_of_samples(scene%resolved%problem, finer, states(:, :, k), accelerations)
-               call classify_window(scene%spectrum, scene%resolved%problem, count, accelerations, found(k), &
-                                    scene%resolved%noise_floor, by_samples(own))
-               if (.not. by_samples(own)%spectrum%sampling_sufficient) cycle
-               verdicts(own) = by_samples(own)
-               classified_by(own) = finer
-            end associate
-         end do
-      end subroutine classify_alike
-
    end subroutine classify_finer
+
+   !> Classes of windows of as many periods that are solved again with some samples of each.
+   function finer_classes(scenes, records, periods, samples_per_period, by_fewer) result(classes)
+      type(prepared_scene_t), intent(in) :: scenes(:)
+      !> What their steps tell
+      type(window_record_t), intent(in) :: records(:)
+      integer, intent(in) :: periods
+      integer, intent(in) :: samples_per_period
+      !> Classes by fewer samples, which stay where a window cannot be solved again
+      type(rattle_verdict_t), intent(in) :: by_fewer(:)
+      type(rattle_verdict_t) :: classes(size(scenes))
+      type(window_record_t) :: found(size(scenes))
+      type(ending_t) :: endings(size(scenes))
+      real(dp), allocatable :: states(:, :, :), accelerations(:)
+      integer :: k
+
+      classes = by_fewer
+      allocate (states(periods*samples_per_period, maxval(state_size(scenes%resolved%problem)), size(scenes)), source=0.0_dp)
+      allocate (accelerations(periods*samples_per_period))
+      do k = 1, size(scenes)
+         found(k)%wants = .false.
+      end do
+      call unlock_texts()
+      call solve_motions(scenes%resolved%problem, records%start, &
+                         request_t(accuracy=scenes(1)%request%accuracy, periods=periods, samples_per_period=samples_per_period, &
+                                   sampled_periods=periods), states, endings, records=found)
+      call lock_texts()
+      do k = 1, size(scenes)
+         if (.not. is_success(endings(k)%status)) cycle
+         associate (problem => scenes(k)%resolved%problem)
+            call accelerations_of_samples(problem, samples_per_period, states(:, :, k), accelerations)
+            call classify_window(scenes(k)%spectrum, problem, periods, accelerations, found(k), scenes(k)%resolved%noise_floor, &
+                                 classes(k))
+         end associate
+      end do
+   end function finer_classes
 
    !> Look for a periodic motion at the ends of motions that are off their harmonics, and follow those that are irregular still beside
    !> neighbours. After a signal to stop the answers are of no use.

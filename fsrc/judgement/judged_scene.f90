@@ -224,35 +224,15 @@ contains
             if (judged%orbit%period > 0) value = real(orbit_stability(judged%orbit%multipliers), dp)
          case (quantity_floquet_modulus)
             if (judged%orbit%period > 0) value = abs(judged%orbit%multipliers(1))
-         case (quantity_pressure_maximum)
-            if (regime%pressure_exists) value = regime%pressure_maximum
          case (quantity_pressure_error)
             if (verification%exists .and. verification%pressure_error >= 0.0_dp) value = verification%pressure_error
          case (quantity_pressure_resolved)
             if (verification%exists .and. verification%pressure_error >= 0.0_dp) &
                value = flag(verification%pressure_error < resolved_pressure)
-         case (quantity_film_at_pressure_maximum)
-            if (problem%contact%film%in_nodes) value = film_of_peak(judged, of_film_at_pressure)
-         case (quantity_central_film)
-            if (problem%contact%film%in_nodes) value = film_of_peak(judged, of_central_film)
-         case (quantity_alpha_p_maximum)
-            value = regime%alpha_p_maximum
-         case (quantity_deflection)
-            value = regime%deflection
-         case (quantity_deflection_share)
-            value = deflection_share(judged)
-         case (quantity_stiffness_matters)
-            value = flag(deflection_share(judged) > deflection_limit)
-         case (quantity_film_regime)
-            value = real(regime%regime, dp)
-         case (quantity_law_contradicted)
-            value = flag(regime%law_contradicted)
-         case (quantity_film_model)
-            if (problem%contact%film%bends) value = merge(film_model_stopped, film_model_closure, judged%nodes_stopped)
-            if (problem%contact%film%in_nodes) value = film_model_nodes
-         case (quantity_closure_range)
-            if (problem%contact%film%bends .and. .not. problem%contact%film%in_nodes) &
-               value = real(closure_range(problem%contact%film, largest_load(judged), regime%pressure_maximum), dp)
+         case (quantity_pressure_maximum, quantity_film_at_pressure_maximum, quantity_central_film, quantity_alpha_p_maximum, &
+               quantity_deflection, quantity_deflection_share, quantity_stiffness_matters, quantity_film_regime, &
+               quantity_law_contradicted, quantity_film_model, quantity_closure_range)
+            value = value_of_film(quantity, judged)
          case (quantity_verdict_verified)
             if (verification%exists .and. judged%impacts%exists) value = flag(verification%impacts%verdict)
          case (quantity_impacts_verified)
@@ -272,6 +252,42 @@ contains
          end select
       end associate
    end function window_value
+
+   !> Value of a quantity of the pressures and the regime of the film.
+   pure real(dp) function value_of_film(quantity, judged) result(value)
+      integer, intent(in) :: quantity
+      type(judged_scene_t), intent(in) :: judged
+
+      value = ieee_value(value, ieee_quiet_nan)
+      associate (regime => judged%regime, problem => judged%resolved%problem)
+         select case (quantity)
+         case (quantity_pressure_maximum)
+            if (regime%pressure_exists) value = regime%pressure_maximum
+         case (quantity_film_at_pressure_maximum)
+            if (problem%contact%film%in_nodes) value = film_of_peak(judged, of_film_at_pressure)
+         case (quantity_central_film)
+            if (problem%contact%film%in_nodes) value = film_of_peak(judged, of_central_film)
+         case (quantity_alpha_p_maximum)
+            value = regime%alpha_p_maximum
+         case (quantity_deflection)
+            value = regime%deflection
+         case (quantity_deflection_share)
+            value = deflection_share(judged)
+         case (quantity_stiffness_matters)
+            value = flag(deflection_share(judged) > deflection_limit)
+         case (quantity_film_regime)
+            value = real(regime%regime, dp)
+         case (quantity_law_contradicted)
+            value = flag(regime%law_contradicted)
+         case (quantity_film_model)
+            if (problem%contact%film%bends) value = merge(film_model_stopped, film_model_closure, judged%nodes_stopped)
+            if (problem%contact%film%in_nodes) value = film_model_nodes
+         case default
+            if (problem%contact%film%bends .and. .not. problem%contact%film%in_nodes) &
+               value = real(closure_range(problem%contact%film, largest_load(judged), regime%pressure_maximum), dp)
+         end select
+      end associate
+   end function value_of_film
 
    !> Value of a quantity of all motions of the starts.
    pure real(dp) function value_of_motions(quantity, coexisting) result(value)

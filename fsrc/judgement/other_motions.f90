@@ -85,16 +85,16 @@ contains
          if (first > size(trials, 2)) exit
          if (.not. in_time()) exit
          last = min(2*first - 2, size(trials, 2))
-         call solve_wave(trials(:, first:last))
+         call solve_wave(scenes, with_verdicts, trials(:, first:last), space, judged, error)
          first = last + 1
       end do
-      if (in_time()) call lead_to_orbits(trials(:, 2:first - 1))
+      if (in_time()) call lead_to_orbits(scenes, with_verdicts, trials(:, 2:first - 1), space, judged, error)
       ! Of starts that settle slowly the next one is followed on only if those before it have shown where they lead.
       follows = .true.
       do number = 2, first - 1
          if (.not. in_time()) exit
          follows = follows .and. [(all(judged(places(i))%coexisting%motions%class /= class_irregular), i=1, size(places))]
-         call solve_again(follows .and. trials(:, number)%is_open, trials(:, number))
+         call solve_again(scenes, with_verdicts, follows .and. trials(:, number)%is_open, trials(:, number), space, judged, error)
          follows = follows .and. .not. trials(:, number)%is_open
       end do
       if (must_stop() .or. allocated(error)) return
@@ -111,48 +111,63 @@ contains
          if (present(ends_at) .and. in_time) in_time = wall_seconds() < ends_at
       end function in_time
 
-      !> Solve the next starts of all scenes.
-      subroutine solve_wave(wave)
-         !> Scene, start
-         type(start_trial_t), intent(inout) :: wave(:, :)
-         type(start_trial_t), allocatable :: together(:)
-
-         together = reshape(wave, [size(wave)])
-         call solve_trials(scenes, with_verdicts, together, space, judged, error)
-         wave = reshape(together, shape(wave))
-      end subroutine solve_wave
-
-      !> Solve all starts that settle slowly from the periodic motion that they near, where there is one.
-      subroutine lead_to_orbits(others)
-         !> Scene, start
-         type(start_trial_t), intent(inout) :: others(:, :)
-         type(start_trial_t), allocatable :: together(:)
-         logical :: is_led(size(others))
-         integer :: k
-
-         others%goes_on = .true.
-         together = reshape(others, [size(others)])
-         is_led = together%is_open
-         do k = 1, size(together)
-            if (is_led(k)) call lead_to_orbit(scenes(together(k)%scene)%resolved%problem, together(k), is_led(k))
-            if (must_stop()) return
-         end do
-         call solve_again(is_led, together)
-         others = reshape(together, shape(others))
-      end subroutine lead_to_orbits
-
-      !> Solve some trials on from their states.
-      subroutine solve_again(followed, these)
-         logical, intent(in) :: followed(:)
-         type(start_trial_t), intent(inout) :: these(:)
-         type(start_trial_t), allocatable :: left(:)
-
-         left = pack(these, followed)
-         call solve_trials(scenes, with_verdicts, left, space, judged, error)
-         these = unpack(left, followed, these)
-      end subroutine solve_again
-
    end subroutine find_other_motions
+
+   !> Solve the next starts of all scenes.
+   subroutine solve_wave(scenes, with_verdicts, wave, space, judged, error)
+      type(prepared_scene_t), intent(in) :: scenes(:)
+      logical, intent(in) :: with_verdicts
+      !> Scene, start
+      type(start_trial_t), intent(inout) :: wave(:, :)
+      type(scene_group_t), intent(inout) :: space
+      type(judged_scene_t), intent(inout) :: judged(:)
+      type(error_t), allocatable, intent(out) :: error
+      type(start_trial_t) :: trials(size(wave))
+
+      trials = reshape(wave, [size(wave)])
+      call solve_trials(scenes, with_verdicts, trials, space, judged, error)
+      wave = reshape(trials, shape(wave))
+   end subroutine solve_wave
+
+   !> Solve all starts that settle slowly from the periodic motion that they near, where there is one.
+   subroutine lead_to_orbits(scenes, with_verdicts, others, space, judged, error)
+      type(prepared_scene_t), intent(in) :: scenes(:)
+      logical, intent(in) :: with_verdicts
+      !> Scene, start
+      type(start_trial_t), intent(inout) :: others(:, :)
+      type(scene_group_t), intent(inout) :: space
+      type(judged_scene_t), intent(inout) :: judged(:)
+      type(error_t), allocatable, intent(out) :: error
+      type(start_trial_t) :: trials(size(others))
+      logical :: is_led(size(others))
+      integer :: i
+
+      others%goes_on = .true.
+      trials = reshape(others, [size(others)])
+      is_led = trials%is_open
+      do i = 1, size(trials)
+         if (is_led(i)) call lead_to_orbit(scenes(trials(i)%scene)%resolved%problem, trials(i), is_led(i))
+         if (must_stop()) return
+      end do
+      call solve_again(scenes, with_verdicts, is_led, trials, space, judged, error)
+      others = reshape(trials, shape(others))
+   end subroutine lead_to_orbits
+
+   !> Solve some trials on from their states.
+   subroutine solve_again(scenes, with_verdicts, followed, trials, space, judged, error)
+      type(prepared_scene_t), intent(in) :: scenes(:)
+      logical, intent(in) :: with_verdicts
+      logical, intent(in) :: followed(:)
+      type(start_trial_t), intent(inout) :: trials(:)
+      type(scene_group_t), intent(inout) :: space
+      type(judged_scene_t), intent(inout) :: judged(:)
+      type(error_t), allocatable, intent(out) :: error
+      type(start_trial_t) :: these(count(followed))
+
+      these = pack(trials, followed)
+      call solve_trials(scenes, with_verdicts, these, space, judged, error)
+      trials = unpack(these, followed, trials)
+   end subroutine solve_again
 
    !> The end of a scene's own motion, and its other starts.
    pure function trials_of(place, problem, count, judged) result(trials)

@@ -301,34 +301,14 @@ contains
       integer, allocatable :: left(:)
       integer :: i, passed
 
-      allocate (left, source=[(i, i=1, size(scenes))])
-      if (before > 0) call go_to_windows
+      if (before > 0) call go_to_windows(scenes, before, states, doubts)
+      left = pack([(i, i=1, size(scenes))], doubts%code == doubt_none)
       do passed = 0, windows_behind(scenes(1)%request%sampled_periods)
          if (size(left) == 0 .or. must_stop() .or. allocated(error)) return
          call pass_window
       end do
 
    contains
-
-      !> Follow the motions to where their windows begin.
-      subroutine go_to_windows
-         type(ending_t) :: endings(size(left))
-         real(dp) :: none(0, 2, size(left))
-         integer :: k
-
-         call unlock_texts()
-         call solve_motions(scenes%resolved%problem, states, request_t(accuracy=scenes(1)%request%accuracy, periods=before), none, &
-                            endings)
-         call lock_texts()
-         do k = 1, size(left)
-            if (is_success(endings(k)%status)) then
-               states(k) = endings(k)%motion_state_t
-            else
-               doubts(k) = doubt_t(doubt_second_ending, counts=[endings(k)%status, 0])
-            end if
-         end do
-         left = pack(left, doubts%code == doubt_none)
-      end subroutine go_to_windows
 
       !> Follow those that are left through one more window.
       subroutine pass_window
@@ -390,5 +370,30 @@ contains
       end subroutine settle_bounds
 
    end subroutine follow_behind
+
+   !> Follow motions to where their windows begin.
+   subroutine go_to_windows(scenes, before, states, doubts)
+      type(prepared_scene_t), intent(in) :: scenes(:)
+      !> Periods
+      integer, intent(in) :: before
+      type(motion_state_t), intent(inout) :: states(:)
+      !> Of those that could not be followed
+      type(doubt_t), intent(inout) :: doubts(:)
+      type(ending_t) :: endings(size(scenes))
+      real(dp) :: none(0, 2, size(scenes))
+      integer :: i
+
+      call unlock_texts()
+      call solve_motions(scenes%resolved%problem, states, request_t(accuracy=scenes(1)%request%accuracy, periods=before), none, &
+                         endings)
+      call lock_texts()
+      do i = 1, size(scenes)
+         if (is_success(endings(i)%status)) then
+            states(i) = endings(i)%motion_state_t
+         else
+            doubts(i) = doubt_t(doubt_second_ending, counts=[endings(i)%status, 0])
+         end if
+      end do
+   end subroutine go_to_windows
 
 end module verify_group

@@ -179,8 +179,8 @@ contains
       integer :: i
 
       text = '## Quantities'//end_of_line//end_of_line// &
-             'What is told of a scene. A summary has words where tables have codes, .true. and .false. where they have 1 and 0.'// &
-             end_of_line//end_of_line//'| quantity | unit | told in | meaning |'//end_of_line//'|---|---|---|---|'//end_of_line
+             'What is reported of a scene. A summary has words where tables have codes, .true. and .false. where they have 1 '// &
+    'and 0.'//end_of_line//end_of_line//'| quantity | unit | reported in | meaning |'//end_of_line//'|---|---|---|---|'//end_of_line
       do i = 1, size(quantity_table)
          quantity = quantity_table(i)
          text = text//'| `'//trim(quantity%name)//'` | '//trim(quantity%unit)//' | '//trim(quantity%reported_in)//' | '// &

@@ -39,7 +39,7 @@ contains
       if (task == 'campaign' .or. task == 'threshold') call add_campaign(input, lines)
    end function odd_numbers_of_input
 
-   !> Both ends of a sweep, or of the range of a threshold. A name that is no key is told elsewhere.
+   !> Both ends of a sweep, or of the range of a threshold. A name that is no key is reported elsewhere.
    pure subroutine add_ends(input, task, lines)
       type(scene_input_t), intent(in) :: input
       !> The task, which is also the group
@@ -59,7 +59,7 @@ contains
       end do
    end subroutine add_ends
 
-   !> Both ends of the range of every varied key, or its list of values. Names that are no keys are told elsewhere.
+   !> Both ends of the range of every varied key, or its list of values. Names that are no keys are reported elsewhere.
    pure subroutine add_campaign(input, lines)
       type(scene_input_t), intent(in) :: input
       type(word_t), allocatable, intent(inout) :: lines(:)

@@ -382,7 +382,7 @@ contains
       end do
    end subroutine check_nodes
 
-   !> When profiles are written is told once, in the order of time.
+   !> When profiles are written is reported once, in the order of time.
    subroutine check_profiles(input)
       type(scene_input_t), intent(inout) :: input
       real(dp), allocatable :: phases(:)

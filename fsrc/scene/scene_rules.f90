@@ -11,7 +11,7 @@ module scene_rules
 
    !> A rule that a scene breaks.
    type, public :: rule_t
-      !> The keys that it concerns, as group.name with a blank behind each; its fault is told at the first
+      !> The keys that it concerns, as group.name with a blank behind each; its fault is reported at the first
       character(64) :: keys
       character(sentence_length) :: sentence
    end type rule_t

@@ -16,7 +16,7 @@ module signal_span
 contains
 
    !> Count the cycles of a recording.
-   subroutine count_cycles(input, group, path, recording, cycles, told)
+   subroutine count_cycles(input, group, path, recording, cycles, basis)
       type(scene_input_t), intent(inout) :: input
       !> 'load' or 'shaft'
       character(*), intent(in) :: group
@@ -24,10 +24,10 @@ contains
       character(*), intent(in) :: path
       !> At least four samples, on a uniform axis if there is one
       type(recording_t), intent(in) :: recording
-      !> 0 if they cannot be told: then the file has a fault, or the input has one that is told elsewhere
+      !> 0 if they are not known: then the file has a fault, or the input has one that is reported elsewhere
       integer, intent(out) :: cycles
       !> What tells them, in a few words
-      character(:), allocatable, intent(out) :: told
+      character(:), allocatable, intent(out) :: basis
       type(axis_unit_t) :: unit
       character(:), allocatable :: message
       real(dp) :: length
@@ -38,14 +38,14 @@ contains
       message = ''
       if (recording%axis_unit%kind == no_axis) then
          cycles = max(1, asked)
-         told = 'no axis tells its cycles'
+         basis = 'no axis tells its cycles'
       else
          cycles = 0
          length = cycle_length(input, group, recording%axis_unit%kind)
          if (.not. length > 0.0_dp) return
          call find_unit(recording, length, asked, unit, message)
          if (len(message) == 0) call fit_cycles(input, group, recording, unit, length, asked, cycles, message)
-         told = "by its axis '"//recording%axis_name//"' in "//trim(unit%word)
+         basis = "by its axis '"//recording%axis_name//"' in "//trim(unit%word)
       end if
       associate (count => size(recording%samples))
          if (len(message) == 0 .and. modulo(count, max(1, cycles)) /= 0) then

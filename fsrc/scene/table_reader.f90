@@ -1,4 +1,4 @@
-!> &gear drag_table and &shaft table: what was measured, from CSV files. What is wrong with a file is told with its line and column.
+!> &gear drag_table and &shaft table: what was measured, from CSV files. What is wrong with a file is reported with its line and column.
 !> The rows stand as comments in the resolved input, where a run that is carried on finds them changed.
 module table_reader
    use csv_table, only: csv_table_t, read_csv_table

@@ -99,7 +99,7 @@ contains
       do i = 1, size(recorded)
          campaign%record(i) = quantity_code(recorded(i)%text)
       end do
-      ! Which model tells of a row is told.
+      ! Which model a row is from is recorded.
       if (input%word('film.model') == 'automatic' .and. .not. any(campaign%record == quantity_film_model)) &
          campaign%record = [campaign%record, quantity_film_model]
       campaign%samples_per_period = input%count('campaign.samples_per_period')

@@ -18,7 +18,7 @@ module force_signal
    implicit none(type, external)
    private
 
-   !> Share by which the power of samples may miss that of the steps, where their phases are to be told.
+   !> Share by which the power of samples may miss that of the steps, where their phases are reported.
    real(dp), parameter :: power_share = 0.01_dp
 
    !> What the film force of a motion is beyond its mean, over a window of whole periods.
@@ -72,7 +72,7 @@ contains
       end do
    end function signal_of_window
 
-   !> Root of the mean square of the sum of forces, and over which periods it is one; NaN, and why, where it cannot be told.
+   !> Root of the mean square of the sum of forces, and over which periods it is one; NaN, and why, where it is not known.
    pure subroutine sum_in_phase(signals, names, rms, words)
       !> Those of all pairs
       type(force_signal_t), intent(in) :: signals(:)

@@ -20,7 +20,7 @@ module verification
    private
 
    !> What the comparison says. The errors are those of the numbers beside them, never printed smaller than the tighter
-   !> solution can tell. A relative error is a share of the smaller one of both numbers: a film that is told a hundred times too
+   !> solution can tell. A relative error is a share of the smaller one of both numbers: a film that is reported a hundred times too
    !> thin is 9900 % off, not 99 %.
    type, public :: verification_t
       !> Whether there was a tighter solution to compare with
