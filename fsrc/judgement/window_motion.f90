@@ -42,9 +42,10 @@ contains
          orbit = judged%orbit
          ! Of an irregular motion the tighter solution may have come to a motion that repeats; this one has not.
          if (judged%rattle%class == class_irregular) orbit = periodic_orbit_t()
-         if (own%period == 0 .and. attracting_period(orbit) > 0) then
+         if (attracting_period(orbit) > 0 .and. attracting_period(orbit) /= own%period) then
             own%states(:, size(own%states, 2)) = orbit%state
             call follow_periods(problem, orbit%period, own)
+            own%rms_is_rough = modulo(judged%window_periods, own%period) > 0
          end if
          coexisting%motions = [motion_summary_t(class=group%verdicts(place)%class, period=own%period, from_own_start=.true., &
                                                 starts=1, acceleration_rms=judged%severity%acceleration_rms, &

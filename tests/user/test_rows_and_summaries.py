@@ -126,7 +126,7 @@ SLOW = """
 """
 
 
-@pytest.mark.parametrize("starts", (1,))
+@pytest.mark.parametrize("starts", (1, 3, pytest.param(29, marks=pytest.mark.long)))
 @pytest.mark.parametrize(
     ("shared", "force", "until"), [(QUICK, 7.9, "steady"), (QUICK, 7.9, "periods"), (SLOW, 12.7, "steady")]
 )
