@@ -78,7 +78,7 @@ contains
       end do
       follows = [(judged(places(i))%settled(1)%period == 0 .and. &
                   judged(places(i))%coexisting%motions(1)%class /= class_irregular, i=1, size(places))]
-      call follow_on(scenes, with_verdicts, follows, space, trials(:, 1), judged, error)
+      if (in_time()) call follow_on(scenes, with_verdicts, follows, space, trials(:, 1), judged, error)
       ! Each wave has twice as many starts as the one before, so that most starts know the motions that there are.
       first = 2
       do
