@@ -8,13 +8,13 @@ module other_motions
    use errors, only: error_t
    use judged_scene, only: judged_scene_t
    use kinds, only: dp
-   use known_motions, only: known_motions_t, known_of, same_motion, settled_motion_t
+   use known_motions, only: are_near, known_motions_t, known_of, near_states, same_motion, settled_motion_t
    use motion_start, only: chosen_starts, motion_start_t, motion_starts, several_starts
    use node_extremes, only: seen_films, seen_loads, seen_net_load, seen_quantities
    use periodic_orbit, only: periodic_orbit_t
    use prepared_scene, only: prepared_scene_t, with_accuracy
    use problem, only: problem_t
-   use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic
+   use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, note_orbit
    use scene_group, only: has_window, scene_group_t, solve_group
    use scene_orbit, only: orbit_ahead
    use scene_status, only: is_success
@@ -29,6 +29,8 @@ module other_motions
    integer, parameter :: most_periods = 120
    !> How often a motion that has not shown what it is, is followed on: the scene's own, and one from another start
    integer, parameter :: own_extensions = 2, other_extensions = 1
+   !> Starts in a row that may find no periodic motion far from their ends
+   integer, parameter :: most_failures = 4
    !> Samples of windows that are solved side by side: no more than these, but for as many windows as there are scenes
    integer, parameter :: samples_together = 2**21
 
@@ -39,6 +41,8 @@ module other_motions
       real(dp), allocatable :: state(:)
       !> Whether it is the end of the scene's own motion, or of another start, which is followed on
       logical :: is_own = .false., goes_on = .false.
+      !> Periods after which it repeats, as Newton's method has found; 0: it is not known
+      integer :: period = 0
       !> On return, place of the motion that it came to, or 0
       integer :: motion = 0
       !> Whether it came to a motion that repeats, and whether it did not and may still, or came next to one whose acceleration its
@@ -129,7 +133,8 @@ contains
       wave = reshape(trials, shape(wave))
    end subroutine solve_wave
 
-   !> Solve all starts that settle slowly from the periodic motion that they near, where there is one.
+   !> Solve all starts that settle slowly from the periodic motion that they near, where there is one. Where several
+   !> in a row have found none, the next ones look for it near their ends alone.
    subroutine lead_to_orbits(scenes, with_verdicts, others, space, judged, error)
       type(prepared_scene_t), intent(in) :: scenes(:)
       logical, intent(in) :: with_verdicts
@@ -140,14 +145,20 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(start_trial_t) :: trials(size(others))
       logical :: is_led(size(others))
-      integer :: i
+      integer :: failures(size(scenes)), i
 
       others%goes_on = .true.
       trials = reshape(others, [size(others)])
       is_led = trials%is_open
+      failures = 0
       do i = 1, size(trials)
-         if (is_led(i)) call lead_to_orbit(scenes(trials(i)%scene)%resolved%problem, trials(i), is_led(i))
          if (must_stop()) return
+         if (.not. is_led(i)) cycle
+         associate (failed => failures(trials(i)%scene))
+            call lead_to_orbit(scenes(trials(i)%scene)%resolved%problem, failed < most_failures, trials(i))
+            is_led(i) = trials(i)%period > 0
+            failed = merge(0, failed + 1, is_led(i))
+         end associate
       end do
       call solve_again(scenes, with_verdicts, is_led, trials, space, judged, error)
       others = reshape(trials, shape(others))
@@ -206,15 +217,17 @@ contains
    end subroutine count_starts
 
    !> Where a motion nears a stable periodic one, it goes on from that.
-   subroutine lead_to_orbit(problem, trial, is_led)
+   subroutine lead_to_orbit(problem, from_far, trial)
       type(problem_t), intent(in) :: problem
+      !> Whether that may be far from where the motion has come to
+      logical, intent(in) :: from_far
+      !> With the period of the periodic motion, or 0
       type(start_trial_t), intent(inout) :: trial
-      logical, intent(out) :: is_led
       type(periodic_orbit_t) :: orbit
 
-      orbit = orbit_ahead(problem, motion_state_t(numbers=trial%state))
-      is_led = orbit%period > 0
-      if (is_led) trial%state = orbit%state
+      orbit = orbit_ahead(problem, motion_state_t(numbers=trial%state), from_far)
+      trial%period = orbit%period
+      if (orbit%period > 0) trial%state = orbit%state
    end subroutine lead_to_orbit
 
    !> Follow the ends of motions on, each time by as many periods as before, until they have shown what they are. What settles slowly
@@ -231,7 +244,6 @@ contains
       type(start_trial_t), allocatable :: these(:)
       integer, allocatable :: left(:)
       integer :: extension, i
-      logical :: is_led
 
       left = pack([(i, i=1, size(trials))], followed)
       do extension = 1, max(own_extensions, other_extensions)
@@ -240,7 +252,7 @@ contains
          these = trials(left)
          do i = 1, size(these)
             if (must_stop()) return
-            call lead_to_orbit(scenes(these(i)%scene)%resolved%problem, these(i), is_led)
+            call lead_to_orbit(scenes(these(i)%scene)%resolved%problem, .true., these(i))
          end do
          call solve_trials(scenes, with_verdicts, these, space, judged, error)
          if (must_stop() .or. allocated(error)) return
@@ -269,8 +281,9 @@ contains
       end do
       left = .true.
       do while (any(left))
-         associate (request => scenes(trials(findloc(left, .true., dim=1))%scene)%request)
-            is_alike = left .and. same_request(scenes(trials%scene)%request, request)
+         first = findloc(left, .true., dim=1)
+         associate (request => scenes(trials(first)%scene)%request)
+            is_alike = left .and. trials%period == trials(first)%period .and. same_request(scenes(trials%scene)%request, request)
             together = max(size(scenes), samples_together/(reserved_periods(request%sampled_periods)*request%samples_per_period))
          end associate
          alike = pack([(i, i=1, size(trials))], is_alike)
@@ -292,7 +305,7 @@ contains
          integer :: k
 
          do k = 1, size(own)
-            tried(k) = tried_scene(scenes(trials(own(k))%scene), with_verdicts)
+            tried(k) = tried_scene(scenes(trials(own(k))%scene), trials(own(k))%period, with_verdicts)
             starts(k)%numbers = trials(own(k))%state
          end do
          wants = .false.
@@ -301,6 +314,9 @@ contains
          call solve_group(tried, starts, wants, space, known(own))
          call classify_windows(tried, space, error)
          if (must_stop() .or. allocated(error)) return
+         do k = 1, size(own)
+            if (has_window(space%endings(k))) call note_orbit(space%verdicts(k), trials(own(k))%period)
+         end do
          call follow_irregular(tried, space, are_followed(trials(own), judged, space))
          if (must_stop()) return
          do k = 1, size(own)
@@ -310,15 +326,18 @@ contains
 
    end subroutine solve_trials
 
-   !> A scene as it is solved from another start.
-   pure type(prepared_scene_t) function tried_scene(scene, with_verdicts) result(tried)
+   !> A scene as it is solved from another start: until it repeats, or for the period of the motion that it starts on.
+   pure type(prepared_scene_t) function tried_scene(scene, period, with_verdicts) result(tried)
       type(prepared_scene_t), intent(in) :: scene
+      !> That period, or 0
+      integer, intent(in) :: period
       logical, intent(in) :: with_verdicts
 
       tried = with_accuracy(scene, max(scene%request%accuracy, enough_accuracy))
-      tried%request%periods = min(scene%request%periods, most_periods)
-      tried%request%until_steady = .true.
-      tried%request%forecast = .true.
+      tried%request%periods = merge(period, min(scene%request%periods, most_periods), period > 0)
+      if (period > 0) tried%request%sampled_periods = period
+      tried%request%until_steady = period == 0
+      tried%request%forecast = period == 0
       tried%request%all_samples = .false.
       tried%request%impact_limit = merge(scene%spectrum%impact_limit, 0.0_dp, with_verdicts)
    end function tried_scene
@@ -366,6 +385,7 @@ contains
          trial%is_open = .false.
          if (has_window(ending)) then
             motion = motion_of_window(problem, scene%request%samples_per_period, place, group)
+            if (trial%period > 0) call note_return
             if (.not. trial%settled .and. motion%period > 0 .and. class == class_subharmonic) then
                trial%is_next_to_one = motion%rms_is_rough
                trial%settled = .not. trial%is_next_to_one
@@ -389,6 +409,7 @@ contains
          end if
          if (trial%is_open) trial%state = ending%numbers
       end associate
+      trial%period = 0
       trial%motion = known
       if (.not. trial%is_own) then
          if (trial%settled .eqv. trial%goes_on) &
@@ -398,6 +419,19 @@ contains
       end if
 
    contains
+
+      !> A motion that starts on a periodic one is that if it comes back to where it started.
+      subroutine note_return
+         integer :: samples, k
+
+         associate (problem => scene%resolved%problem, states => group%states(:, :, place))
+            samples = scene%request%samples_per_period
+            motion%period = trial%period
+            motion%states = transpose(states([(k*samples, k=1, trial%period)], :size(trial%state)))
+            motion%rms_is_rough = .false.
+            trial%settled = are_near(problem, near_states(problem), motion%states(:, trial%period), trial%state)
+         end associate
+      end subroutine note_return
 
       !> The scene's own motion, followed on, is irregular.
       subroutine note_irregular(summary)

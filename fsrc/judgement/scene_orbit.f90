@@ -1,5 +1,6 @@
 !> The periodic motion that a scene ends on.
 module scene_orbit
+   use carried_loads, only: counts_as, thinnest_film
    use engine, only: ending_t, motion_state_t, request_t
    use kinds, only: dp
    use known_motions, only: are_near, distance_of, known_motions_t, near_states
@@ -20,6 +21,9 @@ module scene_orbit
    !> It is followed on with this accuracy, for so many parts of so many periods, and its distance falls at least to this share [-].
    real(dp), parameter :: ahead_accuracy = 1.0e-6_dp, least_fall = 0.7_dp
    integer, parameter :: parts = 6, part_periods = 10
+   !> Longest period after which it may be back [periods of the force], and how close to where it was, relative to the film [-]
+   integer, parameter :: longest_return = 8
+   real(dp), parameter :: close_return = 0.005_dp
    !> Accuracy with which a periodic motion is followed through its periods [-]
    real(dp), parameter :: accuracy = 1.0e-10_dp
 
@@ -39,48 +43,77 @@ contains
       call lock_texts()
    end function nearby_orbit
 
-   !> The stable periodic motion that one which settles slowly comes to, or none: Newton's method leads there from its end, however
-   !> far that is, since next to an impact the film is a hundredth of what a state may be off; and followed on it nears that motion.
-   type(periodic_orbit_t) function orbit_ahead(problem, ending) result(orbit)
+   !> The stable periodic motion that one which settles slowly comes to, or none. It is followed on: where it comes back to where it was,
+   !> a periodic motion may be next to it. Else Newton's method may lead to one from its end, however far that is, since next to an
+   !> impact the film is a hundredth of what a state may be off; and followed on it nears that motion.
+   type(periodic_orbit_t) function orbit_ahead(problem, ending, from_far) result(orbit)
       !> What moves
       type(problem_t), intent(in) :: problem
       !> Where its motion ended
       class(motion_state_t), intent(in) :: ending
-      logical :: comes
+      !> Whether a motion that is far from its end is looked for
+      logical, intent(in) :: from_far
+      type(ending_t) :: endings(1)
+      real(dp) :: states(parts*part_periods, size(ending%numbers), 1)
 
       call unlock_texts()
-      orbit = find_periodic_orbit(problem, ending%numbers, ahead_nearness)
-      if (attracting_period(orbit) == 0) orbit = find_periodic_orbit(problem, ending%numbers, huge(1.0_dp), longest_ahead)
-      comes = attracting_period(orbit) > 0
-      if (comes) comes = comes_to(problem, ending, orbit)
-      if (.not. comes) orbit = periodic_orbit_t()
+      call solve_motions([problem], [motion_state_t(numbers=ending%numbers)], &
+                         request_t(accuracy=ahead_accuracy, periods=size(states, 1), samples_per_period=1, &
+                                   sampled_periods=size(states, 1)), states, endings)
+      if (endings(1)%status == status_complete) then
+         orbit = orbit_of_return(problem, states(:, :, 1))
+         if (orbit%period == 0 .and. from_far) then
+            orbit = find_periodic_orbit(problem, ending%numbers, ahead_nearness)
+            if (attracting_period(orbit) == 0) orbit = find_periodic_orbit(problem, ending%numbers, huge(1.0_dp), longest_ahead)
+            if (.not. comes_to(problem, states(:, :, 1), orbit)) orbit = periodic_orbit_t()
+         end if
+      end if
       call lock_texts()
    end function orbit_ahead
 
-   !> Whether a motion, followed on, nears a periodic one all the time: the largest distances of its successive parts fall.
-   logical function comes_to(problem, from, orbit)
+   !> The stable periodic motion next to the state from which a motion comes closest to where it is after one to eight periods, or none.
+   type(periodic_orbit_t) function orbit_of_return(problem, states) result(orbit)
       type(problem_t), intent(in) :: problem
-      class(motion_state_t), intent(in) :: from
-      !> A stable one
+      !> End of a period, number of the state
+      real(dp), intent(in) :: states(:, :)
+      real(dp) :: distance, nearest, scale(size(states, 2))
+      integer :: i, period, place
+
+      nearest = close_return
+      place = 0
+      do i = 1, size(states, 1)
+         scale = counts_as(problem, states(i, :))/thinnest_film(problem, states(i, :))
+         do period = 1, min(longest_return, size(states, 1) - i)
+            distance = maxval(abs(states(i + period, :) - states(i, :))*scale)
+            if (distance >= nearest) cycle
+            nearest = distance
+            place = i
+         end do
+      end do
+      if (place > 0) orbit = find_periodic_orbit(problem, states(place, :), orbit_nearness)
+      if (attracting_period(orbit) == 0) orbit = periodic_orbit_t()
+   end function orbit_of_return
+
+   !> Whether a motion nears a periodic one all the time: the largest distances of its successive parts fall.
+   logical function comes_to(problem, states, orbit)
+      type(problem_t), intent(in) :: problem
+      !> End of a period, number of the state
+      real(dp), intent(in) :: states(:, :)
+      !> Stable, or none
       type(periodic_orbit_t), intent(in) :: orbit
       type(known_motions_t) :: measure
-      type(ending_t) :: endings(1)
-      real(dp) :: states(parts*part_periods, size(from%numbers), 1), on_orbit(size(from%numbers), 1), &
-                  distances(parts*part_periods), farthest(parts)
+      real(dp) :: on_orbit(size(states, 2), 1), distances(size(states, 1)), farthest(parts)
       integer :: period, i
       logical :: mapped
 
       comes_to = .false.
-      call solve_motions([problem], [motion_state_t(numbers=from%numbers)], &
-                         request_t(accuracy=ahead_accuracy, periods=size(states, 1), samples_per_period=1, &
-                                   sampled_periods=size(states, 1)), states, endings)
-      if (endings(1)%status /= status_complete) return
+      if (attracting_period(orbit) == 0) return
       measure = near_states(problem)
       distances = huge(1.0_dp)
       on_orbit(:, 1) = orbit%state
       do period = 1, orbit%period
          do i = 1, size(distances)
-            distances(i) = min(distances(i), distance_of(problem, measure, states(i, :, 1), on_orbit(:, 1)))
+            distances(i) = min(distances(i), distance_of(problem, measure, states(i, :), on_orbit(:, 1)))
          end do
          call map_states(problem, 1, ahead_accuracy, on_orbit, mapped)
          if (.not. mapped) return

@@ -97,8 +97,6 @@ contains
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of films without nodes')
          else if (i == quantity_closure_range) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of rigid flanks')
-         else if (any(quantity_table(i)%need == [needs_starts, needs_motion_verdicts])) then
-            call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of one start')
          else if (i == quantity_lyapunov_exponent) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of a motion that repeats')
          else
@@ -132,9 +130,7 @@ contains
                   trim(quantity_table(told(i))%name)//' in a campaign')
             end associate
             column = column + 7
-         else if (.not. any(told(i) == [quantity_verified, quantity_periods_solved]) .and. &
-                  all(quantity_table(told(i))%need /= [needs_starts, needs_motion_verdicts])) then
-            ! Motions from other starts are looked for beside the judged one: tests/user/test_coexisting_rows.py.
+         else if (.not. any(told(i) == [quantity_verified, quantity_periods_solved])) then
             call check_same(told(i), row(column), 'in a campaign')
          end if
       end do
