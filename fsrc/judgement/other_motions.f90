@@ -43,8 +43,8 @@ module other_motions
       logical :: is_own = .false., goes_on = .false.
       !> Periods after which it repeats, as Newton's method has found; 0: it is not known
       integer :: period = 0
-      !> On return, place of the motion that it came to, or 0
-      integer :: motion = 0
+      !> On return, whether it came to a motion that is known now
+      logical :: has_motion = .false.
       !> Whether it came to a motion that repeats, and whether it did not and may still, or came next to one whose acceleration its
       !> window does not tell; the state is that of its end then
       logical :: settled = .false., is_open = .false., is_next_to_one = .false.
@@ -101,9 +101,12 @@ contains
          call solve_again(scenes, with_verdicts, follows .and. trials(:, number)%is_open, trials(:, number), space, judged, error)
          follows = follows .and. .not. trials(:, number)%is_open
       end do
+      ! The scene's own motion may be one that another start has shown to be.
+      follows = trials(:, 1)%is_open .and. [(size(judged(places(i))%settled) > 1, i=1, size(places))]
+      if (in_time()) call solve_again(scenes, with_verdicts, follows, trials(:, 1), space, judged, error)
       if (must_stop() .or. allocated(error)) return
       do i = 1, size(places)
-         call count_starts(trials(i, 2:first - 1), judged(places(i))%coexisting)
+         call count_left(trials(i, 2:first - 1), judged(places(i))%coexisting)
       end do
 
    contains
@@ -201,20 +204,17 @@ contains
       end do
    end function trials_of
 
-   !> Count the starts that lead to each motion. One that does not settle is taken to have the irregular motion, where there is one.
-   pure subroutine count_starts(trials, coexisting)
+   !> Count the starts that are left: those that do not settle are taken to have the irregular motion, where there is one.
+   pure subroutine count_left(trials, coexisting)
       !> All starts but the scene's own
       type(start_trial_t), intent(in) :: trials(:)
       type(coexisting_motions_t), intent(inout) :: coexisting
-      integer :: motion(size(trials)), i
+      integer :: i
 
-      motion = trials%motion
-      where (motion == 0 .and. trials%is_open) motion = findloc(coexisting%motions%class, class_irregular, dim=1)
-      do i = 1, size(coexisting%motions)
-         coexisting%motions(i)%starts = coexisting%motions(i)%starts + count(motion == i)
-      end do
       coexisting%drawn_starts = count(trials(chosen_starts:)%settled)
-   end subroutine count_starts
+      i = findloc(coexisting%motions%class, class_irregular, dim=1)
+      if (i > 0) coexisting%motions(i)%starts = coexisting%motions(i)%starts + count(trials%is_open .and. .not. trials%has_motion)
+   end subroutine count_left
 
    !> Where a motion nears a stable periodic one, it goes on from that.
    subroutine lead_to_orbit(problem, from_far, trial)
@@ -410,13 +410,15 @@ contains
          if (trial%is_open) trial%state = ending%numbers
       end associate
       trial%period = 0
-      trial%motion = known
       if (.not. trial%is_own) then
+         if (known > 0 .and. .not. trial%has_motion) &
+            judged%coexisting%motions(known)%starts = judged%coexisting%motions(known)%starts + 1
          if (trial%settled .eqv. trial%goes_on) &
             judged%coexisting%unsettled_starts = judged%coexisting%unsettled_starts + merge(-1, 1, trial%settled)
       else if (known > 1) then
          call give_own_motion(known, trial%settled, judged)
       end if
+      trial%has_motion = trial%has_motion .or. known > 0
 
    contains
 

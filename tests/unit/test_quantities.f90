@@ -9,7 +9,7 @@ module test_quantities
    use key_table, only: find_key
    use kinds, only: dp, int64
    use problem, only: has_elastic_teeth
-   use quantities, only: a_list, a_number, least_verdict_with_impacts, needs_impacts, needs_motion_verdicts, needs_starts, &
+   use quantities, only: a_list, a_number, least_verdict_with_impacts, needs_impacts, quantity_motion_end, &
       quantity_impacts_per_period_drive, quantity_gear_acceleration_maximum, quantity_gear_acceleration_rms, &
       quantity_impacts_verified, quantity_verdict, quantity_verdict_verified, verification_of, quantities_reported_in, &
       quantity_lyapunov_exponent, quantity_impacts_coast, quantity_drag_bearing, quantity_drag_churning, &
@@ -95,6 +95,8 @@ contains
          else if (any(i == [quantity_pressure_error, quantity_pressure_resolved, quantity_film_at_pressure_maximum, &
                             quantity_central_film, quantity_film_model])) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of films without nodes')
+         else if (i == quantity_motion_end) then
+            call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of no threshold')
          else if (i == quantity_closure_range) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of rigid flanks')
          else if (i == quantity_lyapunov_exponent) then
