@@ -30,7 +30,7 @@ module other_motions
    !> How often a motion that has not shown what it is, is followed on: the scene's own, and one from another start
    integer, parameter :: own_extensions = 2, other_extensions = 1
    !> Starts in a row that may find no periodic motion far from their ends
-   integer, parameter :: most_failures = 4
+   integer, parameter :: most_failures = 8
    !> Samples of windows that are solved side by side: no more than these, but for as many windows as there are scenes
    integer, parameter :: samples_together = 2**21
 
