@@ -1,4 +1,4 @@
-!> Motions of scenes from other starts than their own: of all scenes side by side, in waves of starts. A start ends as soon as it has
+!> Motions of scenes from other starts than their own: of all scenes side by side. A start ends as soon as it has
 !> come to a motion that is known of its scene.
 module other_motions
    use classify_group, only: classify_windows, follow_irregular
@@ -83,12 +83,12 @@ contains
       follows = [(judged(places(i))%settled(1)%period == 0 .and. &
                   judged(places(i))%coexisting%motions(1)%class /= class_irregular, i=1, size(places))]
       if (in_time()) call follow_on(scenes, with_verdicts, follows, space, trials(:, 1), judged, error)
-      ! Each wave has twice as many starts as the one before, so that most starts know the motions that there are.
+      ! The first one alone, since a motion that it finds ends others that come to it; then all others.
       first = 2
       do
          if (first > size(trials, 2)) exit
          if (.not. in_time()) exit
-         last = min(2*first - 2, size(trials, 2))
+         last = merge(2, size(trials, 2), first == 2)
          call solve_wave(scenes, with_verdicts, trials(:, first:last), space, judged, error)
          first = last + 1
       end do
