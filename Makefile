@@ -72,7 +72,7 @@ UNIT_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(UNIT_SOURCES)))
 BENCH_SOURCES := $(sort $(wildcard tests/benchmarks/*.f90))
 BENCH_PROGRAMS := $(patsubst %.f90,$(BUILD)/%,$(notdir $(BENCH_SOURCES)))
 
-STRESS_PROGRAMS := $(addprefix $(BUILD)/,stress_scenes stress_summaries stress_motions lane_independence newmark_outcomes)
+STRESS_PROGRAMS := $(addprefix $(BUILD)/,stress_scenes stress_summaries stress_motions lane_independence newmark_outcomes reported_motions)
 STRESS_SOURCES := $(sort $(filter-out $(STRESS_PROGRAMS:$(BUILD)/%=tests/stress/%.f90),$(wildcard tests/stress/*.f90)))
 STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
 
