@@ -25,6 +25,7 @@ contains
       call checks%start('other_motions')
       call test_time_limit(checks)
       call test_counts(checks)
+      call test_long_window(checks)
    end subroutine run_other_motions_tests
 
    !> After its time no start is begun, and none counts.
@@ -70,6 +71,25 @@ contains
          end associate
       end do
    end subroutine test_counts
+
+   !> Starts settle as well where the window has more periods than they are followed.
+   subroutine test_long_window(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      type(judged_scene_t) :: judged(1)
+      type(scene_group_t) :: space
+      type(error_t), allocatable :: error
+      type(scene_t) :: scene
+
+      scene = scene_of_starts(5)
+      scene%solver%periods = 400
+      scene%spectrum%periods = 150
+      call solve_in_memory(scene, judged(1), error)
+      ! No start comes to a motion that stands elsewhere: each has to repeat by itself.
+      judged(1)%settled(1)%states = 2.0_dp*judged(1)%settled(1)%states
+      call find_other_motions([prepare(scene)], .true., space, judged, error)
+      call checks%check(judged(1)%coexisting%unsettled_starts == 0, 'long window: all starts settle')
+      call checks%check(sum(judged(1)%coexisting%motions%starts) == 5, 'long window: each start has a motion')
+   end subroutine test_long_window
 
    !> A gear that settles, with as many starts.
    type(scene_t) function scene_of_starts(starts) result(scene)
