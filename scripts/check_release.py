@@ -1,4 +1,4 @@
-"""Checks that a release is told alike everywhere, and prints the text of its tag.
+"""Checks that a release is stated alike everywhere, and prints the text of its tag.
 
 The version stands in fsrc/VERSION; CITATION.cff, the newest section of CHANGELOG.md and the tag, where there
 is one, must agree with it. Every section of the changelog has a date and at most 40 lines, the newest first.
@@ -46,9 +46,9 @@ def faults(version: str, changelog: str, citation: str, tag: str) -> Iterator[st
     if ".".join(map(str, newest)) != version:
         yield f"CHANGELOG.md: its newest version is not {version} of fsrc/VERSION"
     for key, value in (("version", version), ("date-released", str(date))):
-        told = re.search(rf"^{key}: (\S+)$", citation, re.MULTILINE)
-        if told is None or told[1] != value:
-            yield f"CITATION.cff: {key} is {told[1] if told else 'missing'}, not {value}"
+        stated = re.search(rf"^{key}: (\S+)$", citation, re.MULTILINE)
+        if stated is None or stated[1] != value:
+            yield f"CITATION.cff: {key} is {stated[1] if stated else 'missing'}, not {value}"
     if tag and tag.strip() != tag_text(version, changelog):
         yield f"the message of tag v{version} is not its section of CHANGELOG.md"
 

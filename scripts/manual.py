@@ -15,7 +15,7 @@ from rattle.keys import Key, read_page
 OPTION = re.compile(r"  (--[\w-]+)(?: (\[?[\w.=]+\]?))?  +(.*)")
 FILES = (
     (".rattle", "result: columns with units behind a header that holds the resolved input"),
-    (".summary.nml", "summary: what is told of the run, as a namelist"),
+    (".summary.nml", "summary: what is reported of the run, as a namelist"),
     (".log", "log: the same as sentences"),
     (".state", "state at the end of a motion, from which --resume goes on"),
     (".progress.nml", "how far a campaign is"),
@@ -70,8 +70,8 @@ def man_page(help_text: str, keys: Keys, version: str) -> Iterator[str]:
         if owner != group:
             group = owner
             yield f".SS &{group}"
-        told = ", ".join(word for word in (key.unit, key.default) if word not in ("", "-"))
-        yield from (".TP", rf"\fB{escaped(name)}\fR" + (f" [{escaped(told)}]" if told else ""))
+        notes = ", ".join(word for word in (key.unit, key.default) if word not in ("", "-"))
+        yield from (".TP", rf"\fB{escaped(name)}\fR" + (f" [{escaped(notes)}]" if notes else ""))
         needed = f" Used with {key.used_with}." if key.used_with else ""
         yield escaped(f"{key.meaning}{needed}".replace("`", ""))
     yield ".SH FILES"

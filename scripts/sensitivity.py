@@ -51,7 +51,7 @@ def analyse() -> int:
         description="Tell how much of the variance of what a campaign recorded each varied key explains: "
         "alone (first order) and with all others (total), with 95 % intervals; and how likely a pair is to "
         "rattle. 'sensitivity.py design INPUT' writes the campaign; of one with a sample only the "
-        "probability is told."
+        "probability is reported."
     )
     parser.add_argument("result", type=Path, help="result of a campaign over a design")
     parser.add_argument(

@@ -189,11 +189,10 @@ contains
       allocate (judged(size(solved)), in_nodes(0))
       call solve_and_judge(scenes(solved), start_of(scenes(solved)%resolved%problem), needed, space, judged, error)
       if (must_stop() .or. allocated(error)) return
-      if (needed(needs_starts)) call find_other_motions(scenes(solved), needed(needs_motion_verdicts), space%tight, judged, error)
+      if (needed(needs_starts)) call find_other_motions(scenes(solved), space%tight, judged, error)
       if (must_stop() .or. allocated(error)) return
       if (scenes_of_block(scene, plan) > 1) &
-         call hand_on_motions(scenes(solved), neighbours_of_rows(plan, first, solved), needed(needs_motion_verdicts), space%tight, &
-                              judged, error)
+         call hand_on_motions(scenes(solved), neighbours_of_rows(plan, first, solved), space%tight, judged, error)
       if (must_stop() .or. allocated(error)) return
       do i = 1, size(solved)
          associate (place => solved(i))
@@ -241,6 +240,7 @@ contains
       logical, intent(in) :: needed(:)
 
       prepared = prepare(scene)
+      prepared%start_verdicts = needed(needs_motion_verdicts)
       associate (request => prepared%request)
          request%samples_per_period = merge(scene%campaign%samples_per_period, 1, needed(needs_spectrum))
          request%forecast = request%until_steady

@@ -33,12 +33,10 @@ module handed_motions
 contains
 
    !> Hand every motion to the neighbours that have none like it. After a signal to stop the motions are of no use.
-   subroutine hand_on_motions(scenes, neighbours, with_verdicts, space, judged, error)
+   subroutine hand_on_motions(scenes, neighbours, space, judged, error)
       type(prepared_scene_t), intent(in) :: scenes(:)
       !> Of each scene
       type(neighbours_t), intent(in) :: neighbours(:)
-      !> Whether the verdicts of the motions are asked for
-      logical, intent(in) :: with_verdicts
       !> Work space
       type(scene_group_t), intent(inout) :: space
       !> Judged scenes, with the motions of their starts; others are added
@@ -55,10 +53,10 @@ contains
       do
          call next_round(scenes, neighbours, judged, handed, trials)
          if (size(trials) == 0) return
-         call solve_trials(scenes, with_verdicts, trials, space, judged, error)
+         call solve_trials(scenes, trials, space, judged, error)
          if (must_stop() .or. allocated(error)) return
          trials%goes_on = .true.
-         call follow_on(scenes, with_verdicts, trials%is_next_to_one, space, trials, judged, error)
+         call follow_on(scenes, trials%is_next_to_one, space, trials, judged, error)
          if (must_stop() .or. allocated(error)) return
          do i = 1, size(trials)
             if (trials(i)%settled) cycle
@@ -98,7 +96,7 @@ contains
                   handed(to)%scenes = [handed(to)%scenes, from]
                   handed(to)%places = [handed(to)%places, place]
                   known = [known, motion]
-                  trials = [trials, start_trial_t(to, handed_state(scenes(to)%resolved%problem, motion, &
+                  trials = [trials, start_trial_t(to, 0, handed_state(scenes(to)%resolved%problem, motion, &
                                                                    scenes(from)%resolved%problem))]
                end associate
             end do

@@ -36,8 +36,9 @@ module other_motions
 
    !> A state to start from.
    type, public :: start_trial_t
-      !> Place of its scene
+      !> Place of its scene, and number of the start, 1 its own; 0: it was handed on
       integer :: scene = 0
+      integer :: number = 0
       real(dp), allocatable :: state(:)
       !> Whether it is the end of the scene's own motion, or of another start, which is followed on
       logical :: is_own = .false., goes_on = .false.
@@ -56,10 +57,8 @@ contains
 
    !> Find the motions of scenes that have several starts. A motion of a scene that has not shown what it is, is followed on before
    !> the other starts, others after them. After a signal to stop they are of no use.
-   subroutine find_other_motions(scenes, with_verdicts, space, judged, error, ends_at)
+   subroutine find_other_motions(scenes, space, judged, error, ends_at)
       type(prepared_scene_t), intent(in) :: scenes(:)
-      !> Whether the verdicts of the motions are asked for
-      logical, intent(in) :: with_verdicts
       !> Work space
       type(scene_group_t), intent(inout) :: space
       !> Judged scenes, with their own motions; the others are added
@@ -68,46 +67,25 @@ contains
       type(error_t), allocatable, intent(out) :: error
       !> When no further start is begun, on the clock of wall_seconds [s]; absent: there is no such time
       real(dp), intent(in), optional :: ends_at
-      type(start_trial_t), allocatable :: trials(:, :)
-      integer, allocatable :: places(:)
-      logical, allocatable :: follows(:)
-      integer :: first, last, number, i
+      type(start_trial_t), allocatable :: trials(:)
+      integer :: number, i
 
-      places = pack([(i, i=1, size(scenes))], judged%coexisting%one_start_reason == several_starts .and. &
-                    judged%coexisting%starts_solved > 0 .and. scenes%starts > 1)
-      if (size(places) == 0) return
-      allocate (trials(size(places), maxval(scenes(places)%starts)))
-      do i = 1, size(places)
-         trials(i, :) = trials_of(places(i), scenes(places(i))%resolved%problem, size(trials, 2), judged(places(i)))
-      end do
-      follows = [(judged(places(i))%settled(1)%period == 0 .and. &
-                  judged(places(i))%coexisting%motions(1)%class /= class_irregular, i=1, size(places))]
-      if (in_time()) call follow_on(scenes, with_verdicts, follows, space, trials(:, 1), judged, error)
+      call list_trials(scenes, judged, trials)
+      if (size(trials) == 0) return
+      if (in_time()) call follow_on(scenes, trials%is_open, space, trials, judged, error)
       ! The first one alone, since a motion that it finds ends others that come to it; then all others.
-      first = 2
-      do
-         if (first > size(trials, 2)) exit
-         if (.not. in_time()) exit
-         last = merge(2, size(trials, 2), first == 2)
-         call solve_wave(scenes, with_verdicts, trials(:, first:last), space, judged, error)
-         first = last + 1
-      end do
-      if (in_time()) call lead_to_orbits(scenes, with_verdicts, trials(:, 2:first - 1), space, judged, error)
-      ! Of starts that settle slowly the next one is followed on only if those before it have shown where they lead.
-      follows = .true.
-      do number = 2, first - 1
-         if (.not. in_time()) exit
-         follows = follows .and. [(all(judged(places(i))%coexisting%motions%class /= class_irregular), i=1, size(places))]
-         call solve_again(scenes, with_verdicts, follows .and. trials(:, number)%is_open, trials(:, number), space, judged, error)
-         follows = follows .and. .not. trials(:, number)%is_open
+      if (in_time()) call solve_some(scenes, trials%number == 2, space, trials, judged, error)
+      if (in_time()) call solve_some(scenes, trials%number > 2, space, trials, judged, error)
+      trials%goes_on = .true.
+      if (in_time()) call lead_to_orbits(scenes, space, trials, judged, error)
+      do number = 2, maxval(trials%number)
+         if (in_time()) call solve_some(scenes, [(is_next(trials(i)), i=1, size(trials))], space, trials, judged, error)
       end do
       ! The scene's own motion may be one that another start has shown to be.
-      follows = trials(:, 1)%is_open .and. [(size(judged(places(i))%settled) > 1, i=1, size(places))]
-      if (in_time()) call solve_again(scenes, with_verdicts, follows, trials(:, 1), space, judged, error)
+      if (in_time()) call solve_some(scenes, trials%is_own .and. trials%is_open .and. &
+                                     [(size(judged(trials(i)%scene)%settled) > 1, i=1, size(trials))], space, trials, judged, error)
       if (must_stop() .or. allocated(error)) return
-      do i = 1, size(places)
-         call count_left(trials(i, 2:first - 1), judged(places(i))%coexisting)
-      end do
+      call count_left(trials, judged)
 
    contains
 
@@ -118,102 +96,105 @@ contains
          if (present(ends_at) .and. in_time) in_time = wall_seconds() < ends_at
       end function in_time
 
+      !> Whether a start of this number is followed on: of starts that settle slowly the next one only if those before it have shown
+      !> where they lead.
+      pure logical function is_next(trial)
+         type(start_trial_t), intent(in) :: trial
+
+         is_next = trial%number == number .and. trial%is_open
+         if (is_next) is_next = all(judged(trial%scene)%coexisting%motions%class /= class_irregular) .and. &
+                                .not. any(trials%scene == trial%scene .and. trials%is_open .and. &
+                                          trials%number > 1 .and. trials%number < number)
+      end function is_next
+
    end subroutine find_other_motions
 
-   !> Solve the next starts of all scenes.
-   subroutine solve_wave(scenes, with_verdicts, wave, space, judged, error)
+   !> Starts of all scenes that have several: first the ends of the scenes' own motions, then the second starts of all, and so on.
+   pure subroutine list_trials(scenes, judged, trials)
       type(prepared_scene_t), intent(in) :: scenes(:)
-      logical, intent(in) :: with_verdicts
-      !> Scene, start
-      type(start_trial_t), intent(inout) :: wave(:, :)
+      type(judged_scene_t), intent(in) :: judged(:)
+      type(start_trial_t), allocatable, intent(out) :: trials(:)
+      type(start_trial_t), allocatable :: of_scene(:, :)
+      type(motion_start_t), allocatable :: starts(:)
+      type(motion_state_t) :: state
+      integer, allocatable :: places(:)
+      integer :: number, i
+
+      places = pack([(i, i=1, size(scenes))], judged%coexisting%one_start_reason == several_starts .and. &
+                    judged%coexisting%starts_solved > 0 .and. scenes%starts > 1)
+      if (size(places) == 0) then
+         allocate (trials(0))
+         return
+      end if
+      allocate (of_scene(size(places), maxval(scenes(places)%starts)))
+      do i = 1, size(places)
+         associate (problem => scenes(places(i))%resolved%problem, own => judged(places(i)))
+            starts = motion_starts(problem, size(of_scene, 2), seed)
+            of_scene(i, 1) = start_trial_t(places(i), 1, own%settled(1)%states(:, 1), is_own=.true., &
+                                           is_open=own%settled(1)%period == 0 .and. &
+                                           own%coexisting%motions(1)%class /= class_irregular)
+            do number = 2, size(starts)
+               state = state_of_start(problem, starts(number))
+               of_scene(i, number) = start_trial_t(places(i), number, state%numbers)
+            end do
+         end associate
+      end do
+      trials = reshape(of_scene, [size(of_scene)])
+   end subroutine list_trials
+
+   !> Solve all starts that settle slowly from the periodic motion that they near, where there is one. Where several in a row have
+   !> found none, the next ones look for it near their ends alone.
+   subroutine lead_to_orbits(scenes, space, trials, judged, error)
+      type(prepared_scene_t), intent(in) :: scenes(:)
       type(scene_group_t), intent(inout) :: space
+      type(start_trial_t), intent(inout) :: trials(:)
       type(judged_scene_t), intent(inout) :: judged(:)
       type(error_t), allocatable, intent(out) :: error
-      type(start_trial_t) :: trials(size(wave))
-
-      trials = reshape(wave, [size(wave)])
-      call solve_trials(scenes, with_verdicts, trials, space, judged, error)
-      wave = reshape(trials, shape(wave))
-   end subroutine solve_wave
-
-   !> Solve all starts that settle slowly from the periodic motion that they near, where there is one. Where several
-   !> in a row have found none, the next ones look for it near their ends alone.
-   subroutine lead_to_orbits(scenes, with_verdicts, others, space, judged, error)
-      type(prepared_scene_t), intent(in) :: scenes(:)
-      logical, intent(in) :: with_verdicts
-      !> Scene, start
-      type(start_trial_t), intent(inout) :: others(:, :)
-      type(scene_group_t), intent(inout) :: space
-      type(judged_scene_t), intent(inout) :: judged(:)
-      type(error_t), allocatable, intent(out) :: error
-      type(start_trial_t) :: trials(size(others))
-      logical :: is_led(size(others))
       integer :: failures(size(scenes)), i
 
-      others%goes_on = .true.
-      trials = reshape(others, [size(others)])
-      is_led = trials%is_open
       failures = 0
       do i = 1, size(trials)
          if (must_stop()) return
-         if (.not. is_led(i)) cycle
+         if (trials(i)%is_own .or. .not. trials(i)%is_open) cycle
          associate (failed => failures(trials(i)%scene))
             call lead_to_orbit(scenes(trials(i)%scene)%resolved%problem, failed < most_failures, trials(i))
-            is_led(i) = trials(i)%period > 0
-            failed = merge(0, failed + 1, is_led(i))
+            failed = merge(0, failed + 1, trials(i)%period > 0)
          end associate
       end do
-      call solve_again(scenes, with_verdicts, is_led, trials, space, judged, error)
-      others = reshape(trials, shape(others))
+      call solve_some(scenes, trials%period > 0, space, trials, judged, error)
    end subroutine lead_to_orbits
 
-   !> Solve some trials on from their states.
-   subroutine solve_again(scenes, with_verdicts, followed, trials, space, judged, error)
+   !> Solve some of the trials, on from their states.
+   subroutine solve_some(scenes, solved, space, trials, judged, error)
       type(prepared_scene_t), intent(in) :: scenes(:)
-      logical, intent(in) :: with_verdicts
-      logical, intent(in) :: followed(:)
-      type(start_trial_t), intent(inout) :: trials(:)
+      !> Which
+      logical, intent(in) :: solved(:)
       type(scene_group_t), intent(inout) :: space
+      type(start_trial_t), intent(inout) :: trials(:)
       type(judged_scene_t), intent(inout) :: judged(:)
       type(error_t), allocatable, intent(out) :: error
-      type(start_trial_t) :: these(count(followed))
+      type(start_trial_t) :: these(count(solved))
 
-      these = pack(trials, followed)
-      call solve_trials(scenes, with_verdicts, these, space, judged, error)
-      trials = unpack(these, followed, trials)
-   end subroutine solve_again
-
-   !> The end of a scene's own motion, and its other starts.
-   pure function trials_of(place, problem, count, judged) result(trials)
-      !> Place of the scene
-      integer, intent(in) :: place
-      type(problem_t), intent(in) :: problem
-      !> Of all starts
-      integer, intent(in) :: count
-      type(judged_scene_t), intent(in) :: judged
-      type(start_trial_t) :: trials(count)
-      type(motion_start_t) :: starts(count)
-      type(motion_state_t) :: state
-      integer :: i
-
-      starts = motion_starts(problem, count, seed)
-      trials(1) = start_trial_t(place, judged%settled(1)%states(:, 1), is_own=.true.)
-      do i = 2, count
-         state = state_of_start(problem, starts(i))
-         trials(i) = start_trial_t(place, state%numbers)
-      end do
-   end function trials_of
+      these = pack(trials, solved)
+      call solve_trials(scenes, these, space, judged, error)
+      trials = unpack(these, solved, trials)
+   end subroutine solve_some
 
    !> Count the starts that are left: those that do not settle are taken to have the irregular motion, where there is one.
-   pure subroutine count_left(trials, coexisting)
-      !> All starts but the scene's own
+   pure subroutine count_left(trials, judged)
       type(start_trial_t), intent(in) :: trials(:)
-      type(coexisting_motions_t), intent(inout) :: coexisting
-      integer :: i
+      type(judged_scene_t), intent(inout) :: judged(:)
+      integer :: i, place
 
-      coexisting%drawn_starts = count(trials(chosen_starts:)%settled)
-      i = findloc(coexisting%motions%class, class_irregular, dim=1)
-      if (i > 0) coexisting%motions(i)%starts = coexisting%motions(i)%starts + count(trials%is_open .and. .not. trials%has_motion)
+      do i = 1, size(trials)
+         if (trials(i)%is_own) cycle
+         associate (coexisting => judged(trials(i)%scene)%coexisting)
+            if (trials(i)%settled .and. trials(i)%number > chosen_starts) coexisting%drawn_starts = coexisting%drawn_starts + 1
+            if (trials(i)%has_motion .or. .not. trials(i)%is_open) cycle
+            place = findloc(coexisting%motions%class, class_irregular, dim=1)
+            if (place > 0) coexisting%motions(place)%starts = coexisting%motions(place)%starts + 1
+         end associate
+      end do
    end subroutine count_left
 
    !> Where a motion nears a stable periodic one, it goes on from that.
@@ -232,9 +213,8 @@ contains
 
    !> Follow the ends of motions on, each time by as many periods as before, until they have shown what they are. What settles slowly
    !> is next to a stable periodic motion: where Newton's method finds one, the motion goes on from there.
-   subroutine follow_on(scenes, with_verdicts, followed, space, trials, judged, error)
+   subroutine follow_on(scenes, followed, space, trials, judged, error)
       type(prepared_scene_t), intent(in) :: scenes(:)
-      logical, intent(in) :: with_verdicts
       !> Which of the trials
       logical, intent(in) :: followed(:)
       type(scene_group_t), intent(inout) :: space
@@ -254,7 +234,7 @@ contains
             if (must_stop()) return
             call lead_to_orbit(scenes(these(i)%scene)%resolved%problem, .true., these(i))
          end do
-         call solve_trials(scenes, with_verdicts, these, space, judged, error)
+         call solve_trials(scenes, these, space, judged, error)
          if (must_stop() .or. allocated(error)) return
          trials(left) = these
          left = pack(left, these%is_open)
@@ -263,9 +243,8 @@ contains
 
    !> Solve some starts side by side, and add the motions that they lead to and that are not known yet; the first of those that lead
    !> to one motion counts. After a signal to stop the motions are of no use.
-   subroutine solve_trials(scenes, with_verdicts, trials, space, judged, error)
+   subroutine solve_trials(scenes, trials, space, judged, error)
       type(prepared_scene_t), intent(in) :: scenes(:)
-      logical, intent(in) :: with_verdicts
       type(start_trial_t), intent(inout) :: trials(:)
       type(scene_group_t), intent(inout) :: space
       type(judged_scene_t), intent(inout) :: judged(:)
@@ -305,12 +284,12 @@ contains
          integer :: k
 
          do k = 1, size(own)
-            tried(k) = tried_scene(scenes(trials(own(k))%scene), trials(own(k))%period, with_verdicts)
+            tried(k) = tried_scene(scenes(trials(own(k))%scene), trials(own(k))%period)
             starts(k)%numbers = trials(own(k))%state
          end do
          wants = .false.
          wants(seen_films(1)) = .true.
-         wants([seen_loads(1), seen_net_load]) = with_verdicts
+         wants([seen_loads(1), seen_net_load]) = any(tried%request%impact_limit > 0.0_dp)
          call solve_group(tried, starts, wants, space, known(own))
          call classify_windows(tried, space, error)
          if (must_stop() .or. allocated(error)) return
@@ -327,11 +306,10 @@ contains
    end subroutine solve_trials
 
    !> A scene as it is solved from another start: until it repeats, or for the period of the motion that it starts on.
-   pure type(prepared_scene_t) function tried_scene(scene, period, with_verdicts) result(tried)
+   pure type(prepared_scene_t) function tried_scene(scene, period) result(tried)
       type(prepared_scene_t), intent(in) :: scene
       !> That period, or 0
       integer, intent(in) :: period
-      logical, intent(in) :: with_verdicts
 
       tried = with_accuracy(scene, max(scene%request%accuracy, enough_accuracy))
       tried%request%periods = merge(period, min(scene%request%periods, most_periods), period > 0)
@@ -339,7 +317,7 @@ contains
       tried%request%until_steady = period == 0
       tried%request%forecast = period == 0
       tried%request%all_samples = .false.
-      tried%request%impact_limit = merge(scene%spectrum%impact_limit, 0.0_dp, with_verdicts)
+      tried%request%impact_limit = merge(scene%spectrum%impact_limit, 0.0_dp, scene%start_verdicts)
    end function tried_scene
 
    !> Motions off their harmonics that are followed beside neighbours: the ends of the scenes' own ones, and of each scene whose known

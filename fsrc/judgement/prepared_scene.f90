@@ -58,9 +58,11 @@ module prepared_scene
       type(spectrum_choice_t) :: spectrum
       !> What its engine is asked
       type(request_t) :: request
-      !> Code of its method, and starts whose motions are looked for
+      !> Code of its method
       integer :: method = 0
+      !> Starts whose motions are looked for, and whether the verdicts of these are asked for
       integer :: starts = 1
+      logical :: start_verdicts = .true.
       !> Nodes of pressure, where its films are solved in nodes
       integer :: nodes = 0
       !> Whether its film force is summed with those of the other pairs of a gearbox

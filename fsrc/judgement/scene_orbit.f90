@@ -5,7 +5,7 @@ module scene_orbit
    use kinds, only: dp
    use known_motions, only: are_near, distance_of, known_motions_t, near_states
    use many_motions, only: solve_motions
-   use periodic_orbit, only: attracting_period, find_periodic_orbit, map_states, periodic_orbit_t
+   use periodic_orbit, only: attracting_period, find_periodic_orbit, longest_period, map_states, periodic_orbit_t
    use problem, only: problem_t
    use scene_status, only: status_complete
    use text_output, only: lock_texts, unlock_texts
@@ -21,8 +21,7 @@ module scene_orbit
    !> It is followed on with this accuracy, for so many parts of so many periods, and its distance falls at least to this share [-].
    real(dp), parameter :: ahead_accuracy = 1.0e-6_dp, least_fall = 0.7_dp
    integer, parameter :: parts = 6, part_periods = 10
-   !> Longest period after which it may be back [periods of the force], and how close to where it was, relative to the film [-]
-   integer, parameter :: longest_return = 8
+   !> How close a motion has to come to where it was for a periodic one to be next to it, relative to the film [-]
    real(dp), parameter :: close_return = 0.005_dp
    !> Accuracy with which a periodic motion is followed through its periods [-]
    real(dp), parameter :: accuracy = 1.0e-10_dp
@@ -83,7 +82,7 @@ contains
       place = 0
       do i = 1, size(states, 1)
          scale = counts_as(problem, states(i, :))/thinnest_film(problem, states(i, :))
-         do period = 1, min(longest_return, size(states, 1) - i)
+         do period = 1, min(longest_period, size(states, 1) - i)
             distance = maxval(abs(states(i + period, :) - states(i, :))*scale)
             if (distance >= nearest) cycle
             nearest = distance

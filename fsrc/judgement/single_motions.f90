@@ -45,7 +45,7 @@ contains
 
       ends_at = huge(ends_at)
       if (scene%solver%time_limit > 0.0_dp) ends_at = started + scene%solver%time_limit
-      call find_other_motions([prepare(scene)], .true., space, judged, error, ends_at)
+      call find_other_motions([prepare(scene)], space, judged, error, ends_at)
       if (must_stop() .or. allocated(error)) return
       if (judged(1)%coexisting%starts_solved > 1) call complete_motions(judged(1)%resolved%problem, judged(1))
    end subroutine find_all_motions

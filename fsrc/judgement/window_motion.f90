@@ -45,7 +45,7 @@ contains
          if (attracting_period(orbit) > 0 .and. attracting_period(orbit) /= own%period) then
             own%states(:, size(own%states, 2)) = orbit%state
             call follow_periods(problem, orbit%period, own)
-            own%rms_is_rough = modulo(judged%window_periods, own%period) > 0
+            if (own%period > 0) own%rms_is_rough = modulo(judged%window_periods, own%period) > 0
          end if
          coexisting%motions = [motion_summary_t(class=group%verdicts(place)%class, period=own%period, from_own_start=.true., &
                                                 starts=1, acceleration_rms=judged%severity%acceleration_rms, &

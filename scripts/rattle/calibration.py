@@ -274,7 +274,7 @@ def fit_thresholds(model: Model, span: tuple[float, float]) -> Fit:
                 "The measurements bound the value on one side only; the other end is that of the range."
             )
     else:
-        notes.add("No value agrees with all points: the one with the least disagreement is told.")
+        notes.add("No value agrees with all points: the one with the least disagreement is reported.")
         best, interval = _by_likelihood(limits[useful], (heard == at_low)[useful], logs)
     computed = (model.everywhere(np.array([[math.exp(best)]]))[0] >= model.least_verdict).astype(float)
     return Fit(

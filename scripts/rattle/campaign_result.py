@@ -217,14 +217,14 @@ class Campaign(ResultFile):
                 continue
             values = self.grid(name) if on_grid else self[name][self.done]
             variables[name] = (dimensions, values, attributes(name, self.units[name]))
-        told = {
+        of_campaign = {
             "title": self.name,
             "source": f"rattle {self.program_version}",
             "scenes_done": int(self.done.sum()),
             "scenes": self.row_count,
             "resolved_input": self.input_text,
         }
-        return xarray.Dataset(variables, coordinates, told)
+        return xarray.Dataset(variables, coordinates, of_campaign)
 
     def _axis(self, key: str, planned: PlannedAxis | None) -> Axis:
         values = np.unique(self[key][self.done])

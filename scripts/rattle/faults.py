@@ -44,10 +44,10 @@ def read_faults(text: str) -> list[Fault]:
     """The faults in what the program wrote to its standard error."""
     found = []
     for line in filter(None, text.splitlines()):
-        told = _FAULT.fullmatch(line)
-        if told is None:
+        match = _FAULT.fullmatch(line)
+        if match is None:
             found.append(Fault("rattle", None, None, None, line))
             continue
-        number = int(told["line"]) if told["line"] else None
-        found.append(Fault(told["file"], number, told["group"], told["key"], told["message"]))
+        number = int(match["line"]) if match["line"] else None
+        found.append(Fault(match["file"], number, match["group"], match["key"], match["message"]))
     return found

@@ -52,14 +52,14 @@ def read_page(text: str) -> dict[tuple[str, str], Key]:
             columns = [name.strip() for name in line.strip("|").split("|")]
         elif group and (name := _KEY.match(line)):
             cells = (cell.strip() for cell in line.strip("|").split("|", len(columns) - 1))
-            told = dict(zip(columns, cells, strict=True))
+            row = dict(zip(columns, cells, strict=True))
             found[group, name[1]] = Key(
-                told["unit"],
-                told["default"].replace("**", ""),
-                told["allowed"],
-                told["meaning"],
+                row["unit"],
+                row["default"].replace("**", ""),
+                row["allowed"],
+                row["meaning"],
                 tasks,
-                told.get("used with", ""),
+                row.get("used with", ""),
             )
     return found
 

@@ -1,4 +1,4 @@
-"""Errors of numbers, as far as the digits of the numbers that they belong to let them be told."""
+"""Errors of numbers, as far as the digits of the numbers that they belong to show them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def last_place(number: float, digits: int) -> float:
 
 
 def stated_error(error: float, number: float, digits: int) -> float:
-    """The error of a number told with so many digits, itself with two of them.
+    """The error of a number reported with so many digits, itself with two of them.
 
     The bound is rounded up, and never below half a unit of the last digit of the number; a relative error
     belongs to 1.

@@ -137,7 +137,7 @@ def _study(campaign: Campaign, quantities: Sequence[str]) -> Study:
         if len(values) < 2 or np.ptp(values) <= 1e-12 * np.max(np.abs(values), initial=0.0):
             constant.append(name)
             continue
-        told = indices.analyze(
+        computed = indices.analyze(
             problem,
             values.ravel(),
             calc_second_order=False,
@@ -145,7 +145,7 @@ def _study(campaign: Campaign, quantities: Sequence[str]) -> Study:
             conf_level=CONFIDENCE,
             seed=1,
         )
-        found.append(Indices(name, told["S1"], told["S1_conf"], told["ST"], told["ST_conf"]))
+        found.append(Indices(name, computed["S1"], computed["S1_conf"], computed["ST"], computed["ST_conf"]))
     return Study(
         pair,
         tuple(campaign.varied),

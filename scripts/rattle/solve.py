@@ -277,15 +277,15 @@ def _outcome(ended: subprocess.CompletedProcess[str]) -> Solved | Gearbox:
     if ended.returncode not in (COMPLETE, SCENE_FAILED):
         kind = InputError if ended.returncode == BAD_INPUT else RunError
         raise kind(read_faults(ended.stderr), ended.returncode)
-    told = [Path(line.removeprefix("  ")) for line in ended.stdout.split("\n")]
-    summaries = [path for path in told if path.name.endswith(".summary.nml")]
+    written = [Path(line.removeprefix("  ")) for line in ended.stdout.split("\n")]
+    summaries = [path for path in written if path.name.endswith(".summary.nml")]
     if not summaries:
         raise RunError(read_faults(ended.stderr), ended.returncode, "The program left no summary.")
     if len(summaries) == 1:
-        return _solved(summaries[0], told)
+        return _solved(summaries[0], written)
     gearbox = Gearbox()
     for path in summaries:
-        solved = _solved(path, told)
+        solved = _solved(path, written)
         if "gears" in solved.summary:
             gearbox.summary = solved.summary
         else:
@@ -293,12 +293,12 @@ def _outcome(ended: subprocess.CompletedProcess[str]) -> Solved | Gearbox:
     return gearbox
 
 
-def _solved(summary: Path, told: Sequence[Path]) -> Solved:
+def _solved(summary: Path, written: Sequence[Path]) -> Solved:
     """A summary with the result that stands beside it."""
     name = summary.name.removesuffix(".summary.nml")
     path = summary.with_name(f"{name}.rattle")
     result = None
-    if path in told:
+    if path in written:
         opened = read(path)
         result = read_campaign(path) if opened.task == "campaign" else opened
     return Solved(result, read_summary(summary))

@@ -25,21 +25,15 @@ contains
       call checks%start('other_motions')
       call test_time_limit(checks)
       call test_counts(checks)
-      call test_long_window(checks)
+      call test_new_motion(checks)
    end subroutine run_other_motions_tests
 
    !> After its time no start is begun, and none counts.
    subroutine test_time_limit(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       type(judged_scene_t) :: judged(1)
-      type(scene_group_t) :: space
-      type(error_t), allocatable :: error
-      type(scene_t) :: scene
 
-      scene = scene_of_starts(7)
-      call solve_in_memory(scene, judged(1), error)
-      call find_other_motions([prepare(scene)], .true., space, judged, error, wall_seconds() - 1.0_dp)
-      call checks%check(.not. allocated(error), 'time limit: ends')
+      call search(scene_of_starts(7), .true., judged, checks, wall_seconds() - 1.0_dp)
       call checks%check(judged(1)%coexisting%starts_solved == 1 .and. judged(1)%coexisting%extra_periods == 0, &
                         'time limit: its own start alone')
       call checks%check(sum(judged(1)%coexisting%motions%starts) == 1, 'time limit: one start of one motion')
@@ -49,17 +43,12 @@ contains
    subroutine test_counts(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       type(judged_scene_t) :: judged(1)
-      type(scene_group_t) :: space
-      type(error_t), allocatable :: error
-      type(scene_t) :: scene
       integer, parameter :: counts(4) = [2, 3, 4, 13]
       integer :: i, motions
 
       motions = 1
       do i = 1, size(counts)
-         scene = scene_of_starts(counts(i))
-         call solve_in_memory(scene, judged(1), error)
-         call find_other_motions([prepare(scene)], .true., space, judged, error)
+         call search(scene_of_starts(counts(i)), .true., judged, checks)
          associate (coexisting => judged(1)%coexisting)
             call checks%check(coexisting%starts_solved == counts(i), 'counts: all starts')
             call checks%check(sum(coexisting%motions%starts) + coexisting%unsettled_starts == counts(i), 'counts: each start')
@@ -72,24 +61,39 @@ contains
       end do
    end subroutine test_counts
 
-   !> Starts settle as well where the window has more periods than they are followed.
-   subroutine test_long_window(checks)
+   !> A motion that is not known is found once, however many starts lead to it.
+   subroutine test_new_motion(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       type(judged_scene_t) :: judged(1)
+
+      call search(scene_of_starts(5), .false., judged, checks)
+      associate (motions => judged(1)%coexisting%motions)
+         call checks%check(size(motions) == 2 .and. size(judged(1)%settled) == 2, 'new motion: once')
+         call checks%check(all(motions%starts == [1, 4]), 'new motion: by all other starts')
+         call checks%check(judged(1)%coexisting%unsettled_starts == 0, 'new motion: repeats')
+         ! It is the scene's own one, to the accuracy of starts times the largest growth of an error in an impact.
+         call checks%check_close(motions(2)%acceleration_rms, motions(1)%acceleration_rms, &
+                                 1.0e-4_dp*motions(1)%acceleration_rms, 'new motion: shakes as the scene does')
+         call checks%check(motions(2)%class == motions(1)%class .and. motions(2)%verdict == motions(1)%verdict, &
+                           'new motion: class and verdict')
+      end associate
+   end subroutine test_new_motion
+
+   !> Solve a scene and look for its other motions.
+   subroutine search(scene, knows_own, judged, checks, ends_at)
+      type(scene_t), intent(in) :: scene
+      logical, intent(in) :: knows_own                   !> Whether its own motion is where it is: else no start comes to it
+      type(judged_scene_t), intent(out) :: judged(1)     !> With all motions
+      type(check_list_t), intent(inout) :: checks        !> Collects the results
+      real(dp), intent(in), optional :: ends_at          !> As of find_other_motions
       type(scene_group_t) :: space
       type(error_t), allocatable :: error
-      type(scene_t) :: scene
 
-      scene = scene_of_starts(5)
-      scene%solver%periods = 400
-      scene%spectrum%periods = 150
       call solve_in_memory(scene, judged(1), error)
-      ! No start comes to a motion that stands elsewhere: each has to repeat by itself.
-      judged(1)%settled(1)%states = 2.0_dp*judged(1)%settled(1)%states
-      call find_other_motions([prepare(scene)], .true., space, judged, error)
-      call checks%check(judged(1)%coexisting%unsettled_starts == 0, 'long window: all starts settle')
-      call checks%check(sum(judged(1)%coexisting%motions%starts) == 5, 'long window: each start has a motion')
-   end subroutine test_long_window
+      if (.not. knows_own) judged(1)%settled(1)%states = 2.0_dp*judged(1)%settled(1)%states
+      call find_other_motions([prepare(scene)], space, judged, error, ends_at)
+      call checks%check(.not. allocated(error), 'search: ends without an error')
+   end subroutine search
 
    !> A gear that settles, with as many starts.
    type(scene_t) function scene_of_starts(starts) result(scene)

@@ -49,13 +49,13 @@ def _picture(result: Result, label: str, periods: int) -> tuple[Figure, Callable
     backlash = result.input.get("contact", {}).get("backlash")
     both = bool(backlash)
     gap = 1e6 * backlash if both else 1.6 * films.max()
-    told = profiles.profiles_of(result)
-    figure = Figure(figsize=(style.WIDTH, 5.4 if told else 3.4), dpi=INCH_DOTS)
-    if told:
+    shown = profiles.profiles_of(result)
+    figure = Figure(figsize=(style.WIDTH, 5.4 if shown else 3.4), dpi=INCH_DOTS)
+    if shown:
         panels = figure.subplot_mosaic([["gap", "loads"], ["contact", "contact"]], width_ratios=(2, 3))
         left, right = panels["gap"], panels["loads"]
         span = periods / result.frequency
-        show_contact = _contact(panels["contact"], told, float(result[TIME][-1]) - span, span)
+        show_contact = _contact(panels["contact"], shown, float(result[TIME][-1]) - span, span)
     else:
         left, right = figure.subplots(1, 2, width_ratios=(2, 3))
     tooth, oil = _gap(left, gap, both)
@@ -79,26 +79,26 @@ def _picture(result: Result, label: str, periods: int) -> tuple[Figure, Callable
             oil[1].set_y(film + THICK * gap)
             oil[1].set_height(gap - film)
         now.set_xdata([moment * time[-1]] * 2)
-        if told:
+        if shown:
             show_contact(moment)
 
     return figure, show
 
 
-def _contact(axes: Axes, told: list[profiles.Profile], start: float, span: float) -> Callable[[float], None]:
+def _contact(axes: Axes, shown: list[profiles.Profile], start: float, span: float) -> Callable[[float], None]:
     """Pressures over both contacts, and what moves them to a share of the time shown.
 
     Each flank has its last profile. `start` is where the time shown begins [s], `span` how long it is.
     """
-    flanks = sorted({profile.flank for profile in told})
+    flanks = sorted({profile.flank for profile in shown})
     lines = {}
     for flank, line in zip(flanks, FLANK_LINES, strict=False):
         (pressure,) = axes.plot([], [], label=profiles.FLANKS[flank], **line)
         (dry,) = axes.plot([], [], color=line["color"], **profiles.DRY)
         lines[flank] = pressure, dry
     axes.plot([], [], color=style.FORCE_COLOUR, label="dry contact (Hertz)", **profiles.DRY)
-    highest = max(max(one.pressure.max(), one.dry.max()) for one in told)
-    places = np.concatenate([one.place[one.pressure > profiles.SHOWN_SHARE * highest] for one in told])
+    highest = max(max(one.pressure.max(), one.dry.max()) for one in shown)
+    places = np.concatenate([one.place[one.pressure > profiles.SHOWN_SHARE * highest] for one in shown])
     axes.set_xlim(1.1 * min(places.min(), 0.0), 1.3 * places.max())
     axes.set_ylim(0.0, 1.1 * highest)
     axes.set_ylabel("Pressure [MPa]")
@@ -108,7 +108,7 @@ def _contact(axes: Axes, told: list[profiles.Profile], start: float, span: float
     def show(moment: float) -> None:
         now = start + moment * span
         for flank, (pressure, dry) in lines.items():
-            before = [one for one in told if one.flank == flank]
+            before = [one for one in shown if one.flank == flank]
             one = min(before, key=lambda other: (now - other.time) % span)
             pressure.set_data(*one.curve(one.pressure))
             dry.set_data(*one.dry_curve())

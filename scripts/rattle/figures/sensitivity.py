@@ -27,10 +27,10 @@ def draw(campaign: Campaign, studies: Sequence[Study]) -> Figure:
     figure = Figure(figsize=(style.WIDTH, MARGIN + len(studies) * (PANEL + BAR * len(keys))))
     panels = figure.subplots(len(studies), max(len(names), 1), squeeze=False, sharex=True, sharey=True)
     for row, study in zip(panels, studies, strict=True):
-        told = {found.quantity: found for found in study.found}
+        by_name = {found.quantity: found for found in study.found}
         for axes, name in zip(row, names, strict=True):
-            if name in told:
-                _bars(axes, told[name])
+            if name in by_name:
+                _bars(axes, by_name[name])
             else:
                 axes.text(
                     0.5, 0.5, "the same\nat all points", ha="center", va="center", transform=axes.transAxes

@@ -74,13 +74,15 @@ def page_of_box(results: Sequence[ResultFile], names: Sequence[str], box: Summar
     summaries = [summary for result in results if (summary := motion.summary_of(result))]
     words, table = together(box)
     others = [
-        f"{gear}: {str(told['motions_text']).strip()}."
-        for gear, told in box["gears"].items()
-        if told.get("motions", 1) > 1
+        f"{gear}: {str(summary['motions_text']).strip()}."
+        for gear, summary in box["gears"].items()
+        if summary.get("motions", 1) > 1
     ]
-    hit = [gear for gear, told in box["gears"].items() if "impacts" in str(told.get("verdict", ""))]
-    told = [
-        f"{gear}: {str(told['verdict']).strip()}" for gear, told in box["gears"].items() if "verdict" in told
+    hit = [gear for gear, summary in box["gears"].items() if "impacts" in str(summary.get("verdict", ""))]
+    verdicts = [
+        f"{gear}: {str(summary['verdict']).strip()}"
+        for gear, summary in box["gears"].items()
+        if "verdict" in summary
     ]
     head = f"{len(hit)} of {len(box['gears'])} gear pairs have impacts"
     folds = page.fold("Gear pairs, each and together", [table])
@@ -89,7 +91,9 @@ def page_of_box(results: Sequence[ResultFile], names: Sequence[str], box: Summar
         folds += page.fold(name, part(result, name), f"result-{place}")
     return [
         page.paragraph(ABOUT.format(what=OF_MOTIONS), "lead"),
-        page.verdict_box(head, None, [f"{'; '.join(told)}." if told else "", *others, words], doubt=False),
+        page.verdict_box(
+            head, None, [f"{'; '.join(verdicts)}." if verdicts else "", *others, words], doubt=False
+        ),
         *odd_numbers_of(box, summaries),
         *severest_pair(results, box),
         *page.appendix(folds),
@@ -105,8 +109,8 @@ def severest_pair(results: Sequence[ResultFile], box: Summary) -> list[str]:
         if gear and result.path.name == f"{box['name']}.{gear}.rattle":
             drawn = [page.paragraph(f"{gear}, the most severe, in pictures:"), *motion.figures(result)]
     rows = [
-        [gear, *(number_of(told, name) for name in SEEN)]
-        for gear, told in sorted(box["gears"].items(), key=lambda pair: -forces.get(pair[0], -1.0))
+        [gear, *(number_of(summary, name) for name in SEEN)]
+        for gear, summary in sorted(box["gears"].items(), key=lambda pair: -forces.get(pair[0], -1.0))
     ]
     return [*drawn, *page.numbers(rows, ("Gear", *(look.capital(look.short_name(name)) for name in SEEN)))]
 
@@ -114,12 +118,16 @@ def severest_pair(results: Sequence[ResultFile], box: Summary) -> list[str]:
 def forces_of(box: Summary) -> dict[str, float]:
     """What each pair loads its bearings with [N rms], where it is known."""
     return {
-        gear: float(told["film_force_rms"]) for gear, told in box["gears"].items() if "film_force_rms" in told
+        gear: float(summary["film_force_rms"])
+        for gear, summary in box["gears"].items()
+        if "film_force_rms" in summary
     }
 
 
-def number_of(told: Summary, name: str) -> str:
-    return page.value(float(told[name]), QUANTITIES[name].unit, page.FEW_DIGITS) if name in told else "-"
+def number_of(summary: Summary, name: str) -> str:
+    return (
+        page.value(float(summary[name]), QUANTITIES[name].unit, page.FEW_DIGITS) if name in summary else "-"
+    )
 
 
 def opened(path: Path) -> ResultFile:
@@ -278,16 +286,14 @@ def together(box: Summary) -> tuple[str, str]:
         f"together, {word}": f"film_force_rms_{word.replace(' ', '_')}"
         for word in ("uncorrelated", "in phase")
     }
-    told_together = [
-        (words, {"film_force_rms": box[name]} if name in box else {}) for words, name in sums.items()
-    ]
-    told_together[0][1].update({name: box[name] for name in ("dissipated_power",) if name in box})
-    for gear, told in (*box["gears"].items(), *told_together):
+    together = [(words, {"film_force_rms": box[name]} if name in box else {}) for words, name in sums.items()]
+    together[0][1].update({name: box[name] for name in ("dissipated_power",) if name in box})
+    for gear, summary in (*box["gears"].items(), *together):
         # Tables of earlier versions tell of double-sided impacts alone.
         earlier = {True: "double-sided impacts", False: "no double-sided impacts"}
-        verdict = str(told.get("verdict", earlier.get(told.get("double_sided"), "-")))
-        numbers = [number_of(told, name) for name in TOGETHER]
-        rows.append([gear, spoken(str(told.get("rattle_class", "-"))), verdict, *numbers])
+        verdict = str(summary.get("verdict", earlier.get(summary.get("double_sided"), "-")))
+        numbers = [number_of(summary, name) for name in TOGETHER]
+        rows.append([gear, spoken(str(summary.get("rattle_class", "-"))), verdict, *numbers])
     known = forces_of(box)
     words = EARLIER_TABLE
     if "film_force_text" in box:

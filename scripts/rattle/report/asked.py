@@ -9,7 +9,7 @@ from rattle.keys import key_table
 from rattle.report import page
 from rattle.result_file import ResultFile
 
-# What matters most of a scene, in the order in which it is told.
+# What matters most of a scene, in the order in which it is reported.
 IN_SHORT = (
     ("load", "mass", "mass of the tooth pair"),
     ("load", "steady_force", "steady force"),
@@ -40,7 +40,7 @@ def in_short(result: ResultFile) -> str:
         varied.add(result.names[0])
     if result.task == "threshold":
         varied.add(str(result.value("threshold", "key")).strip().rpartition(".")[2])
-    parts, told = pairs(result), []
+    parts, results = pairs(result), []
     for group, name, words in (*DRIVEN, *IN_SHORT):
         given = result.input.get(group, {}).get(name)
         if given is None or name in varied:
@@ -49,13 +49,13 @@ def in_short(result: ResultFile) -> str:
         numbers = given if isinstance(given, list) else [given]
         follows = parts and "gear" in result.input and group in FOLLOWING
         sentence = f"{words} {', '.join(page.plain(number, unit) for number in numbers)}"
-        (told if follows else parts).append(sentence)
+        (results if follows else parts).append(sentence)
     film = result.input.get("film", {})
     law = " ".join(str(film[name]).strip() for name in ("model", "law") if name in film)
     if law:
         parts.append(f"film by the {law.replace('reynolds', 'Reynolds')} law")
     asked = f"Asked: {'; '.join(parts)}. " if parts else ""
-    made = f"This makes: {'; '.join(told)}. " if told else ""
+    made = f"This makes: {'; '.join(results)}. " if results else ""
     return f"{asked}{made}All inputs stand below."
 
 

@@ -149,8 +149,8 @@ def odd_numbers(result: ResultFile) -> list[str]:
 
 
 def warnings_of(summary: Summary) -> list[str]:
-    told = summary.get("input_warnings", [])
-    return [told] if isinstance(told, str) else list(told)
+    warnings = summary.get("input_warnings", [])
+    return [warnings] if isinstance(warnings, str) else list(warnings)
 
 
 def notes_on(lines: Iterable[str]) -> list[str]:
@@ -169,10 +169,10 @@ def verdict(result: Result, summary: Summary | None) -> list[str]:
     doubt = not ended or badge[0] == "doubt"
     if "verdict" not in summary:
         return [page.verdict_box(word, badge, sentences, doubt=doubt)]
-    told = str(summary["verdict"]).strip()
+    head = str(summary["verdict"]).strip()
     own = VERIFIED_VERDICT[summary.get("verdict_verified")]
     second = (f"Class by its spectrum: {word}", badge)
-    return [page.verdict_box(told, own, sentences, doubt=doubt or own[0] == "doubt", second=second)]
+    return [page.verdict_box(head, own, sentences, doubt=doubt or own[0] == "doubt", second=second)]
 
 
 def badge_of(summary: Summary) -> tuple[str, str]:
@@ -363,8 +363,7 @@ def computed(result: ResultFile, summary: Summary | None) -> list[str]:
     ):
         if key in solver:
             rows.append([label, page.value(solver[key], unit)])
-    told = summary or {}
-    for name, given in told.items():
+    for name, given in (summary or {}).items():
         if name in COMPUTED and name != "program_version":
             label, unit = COMPUTED[name]
             rows.append([label, page.value(given, unit)])

@@ -249,7 +249,7 @@ def value(given: Any, unit: str = "", digits: int = DIGITS) -> Cell:
 
 
 def error(given: float, number: float, unit: str = "") -> Cell:
-    """The error of a number that is told with all digits; a relative error belongs to 1."""
+    """The error of a number that is reported with all digits; a relative error belongs to 1."""
     return value(stated_error(float(given), float(number), DIGITS), unit, ERROR_DIGITS)
 
 

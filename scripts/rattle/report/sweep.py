@@ -120,11 +120,11 @@ def known_both_ways(result: Result) -> bool:
 def differing(result: Result) -> np.ndarray:
     """Values of the key at which the motion on the decreasing is another than on the increasing."""
     kept = np.isin(result["status"], SUCCESSES)
-    told = zip(
+    rows = zip(
         result[result.names[0]], result["direction"], result["rattle_class"], peaks(result), kept, strict=True
     )
     there, found = {}, []
-    for value, direction, name, peak, known in told:
+    for value, direction, name, peak, known in rows:
         if not known:
             continue
         if direction > 0.0:

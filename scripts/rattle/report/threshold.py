@@ -116,8 +116,8 @@ def kinds_of(found: Thresholds) -> list[list[str]]:
     for kind, count in Counter(found.kinds[crossed]).most_common(MOST_KINDS):
         places = np.flatnonzero(crossed & (found.kinds == kind))
         ends = places[[np.argmin(found.values[places]), np.argmax(found.values[places])]]
-        told = [page.value(float(found.values[place]), unit) for place in ends]
-        rows.append([kind, str(count), *told, str(int(found.uncertain[places].sum()))])
+        numbers = [page.value(float(found.values[place]), unit) for place in ends]
+        rows.append([kind, str(count), *numbers, str(int(found.uncertain[places].sum()))])
     return rows
 
 
