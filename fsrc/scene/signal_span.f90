@@ -233,7 +233,8 @@ contains
       else
          ! An engine does not change its speed to suit a record: whole cycles are cut out of it.
          words = 'cut whole cycles out: '//command_of_cycle(input, group, path, option_of_speed())
-         if (real(size(recording%samples), dp) < per_cycle) words = 'it holds no whole cycle'
+         if (real(size(recording%samples), dp) < per_cycle) words = 'it holds no whole cycle: '// &
+                                                                   'record more than one, or give one over its angle'
          if (group == 'load') return
          revolutions = whole_revolutions()
          if (revolutions > 0) words = 'cycle_revolutions = '//integer_text(revolutions)// &
