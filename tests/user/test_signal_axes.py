@@ -638,7 +638,7 @@ def test_no_line_of_a_foreign_file_is_quoted(text: str, write, refused) -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        (ONE.text().replace(",", ";", 1), "cycle.csv:2: the line has 2 columns, the header 1"),
+        (ONE.text().replace(",", ";", 1), "cycle.csv:2: the line has 1 columns, the header 2"),
         (ONE.text().replace(".", ","), "decimal commas are read only where semicolons separate the columns"),
         (ONE.text().replace(",", "\t"), "cycle.csv:1: tabs separate the columns"),
         (ONE.text().split("\n", 1)[1], "cycle.csv:1: the first line holds numbers; it must name the columns"),
