@@ -83,7 +83,7 @@ def check_times(time: str | None, signal_seconds: int) -> None:
     limit = None if time is None else job_script.seconds_of(time)
     if limit is None:
         command.note(
-            "without a limit as --time Slurm gives no warning before the partition's own limit, if it has one."
+            "without a --time limit Slurm gives no warning before the partition's own limit, if it has one."
         )
         return
     warning = signal_seconds + job_script.CLOCK_GRAIN

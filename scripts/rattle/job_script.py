@@ -9,7 +9,7 @@ from pathlib import Path
 
 # Slurm checks time limits about once a minute, so its warning may come up to a minute early, never late.
 CLOCK_GRAIN = 60
-# Time limits: minutes, minutes:seconds, hours:minutes:seconds, and behind days- hours, with minutes and seconds or without.
+# Time limits: minutes[:seconds], hours:minutes:seconds, days-hours[:minutes[:seconds]].
 TIME = re.compile(r"(?:(?P<days>\d+)-)?(?P<clock>(?<=-)|\d+(?::\d+){0,2})", re.ASCII)
 NO_LIMIT = ("UNLIMITED", "INFINITE", "-1")
 # An amount of memory, in megabytes where no unit stands.
@@ -44,7 +44,7 @@ class Job:
 
 
 def seconds_of(time: str) -> int | None:
-    """Seconds of a time limit in any form that Slurm takes, None for no limit; ValueError for anything else."""
+    """Seconds of a time limit as Slurm takes it, None for no limit; ValueError for anything else."""
     if time.upper() in NO_LIMIT:
         return None
     found = TIME.fullmatch(time)
