@@ -33,6 +33,8 @@ module scene_reader
       character(:), allocatable :: source
       !> As namelist text
       character(:), allocatable :: text
+      !> Which of several gear pairs it is for; 0: all
+      integer :: pair = 0
    end type override_t
 
    public :: read_scenes
@@ -79,6 +81,10 @@ contains
       ! What holds no group at all is no input; a list of all that it lacks would help nobody.
       is_input = size(assignments) > 0 .or. faults%count() == before
       call begin_inputs(assignments, file, inputs)
+      do i = 1, size(overrides)
+         if (overrides(i)%pair > size(inputs)) call faults%add( &
+            overrides(i)%source, 0, '', '', 'there is no gear pair of this number; the input has '//integer_text(size(inputs)))
+      end do
       deallocate (scenes)
       allocate (scenes(size(inputs)))
       do i = 1, size(inputs)
@@ -135,6 +141,7 @@ contains
 
       call input%set_all(assignments, file, .false.)
       do i = 1, size(overrides)
+         if (all(overrides(i)%pair /= [0, input%pair])) cycle
          call scan_namelists(overrides(i)%text, overrides(i)%source, 0, set, input%faults)
          ! The group itself counts as one; a value that goes on with keys or groups of its own sets more.
          if (size(set) > 2) then
