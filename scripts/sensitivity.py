@@ -7,10 +7,6 @@ import argparse
 import sys
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-
 import rattle
 from rattle import command, outputs, sensitivity, table
 from rattle.figures import style
