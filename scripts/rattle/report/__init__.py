@@ -10,7 +10,7 @@ from rattle.campaign_result import Campaign
 from rattle.codes import QUANTITIES, spoken, words_of
 from rattle.figures import campaign_look as look
 from rattle.figures import film, film_points
-from rattle.report import asked, campaign, motion, page, sweep, threshold
+from rattle.report import asked, campaign, motion, page, sensitivity, sweep, threshold
 from rattle.result import MOTIONS_ENDING, Result, read
 from rattle.result_file import ResultFile
 from rattle.summary import Summary, comparison_table, input_warnings, read_summary
@@ -194,7 +194,7 @@ def threshold_part(result: Result) -> Parts:
 
 def campaign_part(result: Campaign) -> Parts:
     seen, others = campaign.figures(result)
-    parts = [*campaign.verdict(result), *seen, *campaign.numbers(result)]
+    parts = [*campaign.verdict(result), *sensitivity.part(result), *seen, *campaign.numbers(result)]
     folds = page.fold("What was varied", [campaign.keys_table(result)])
     folds += page.fold("What the classes mean", campaign.meanings(result))
     folds += page.fold("More pictures", others)
