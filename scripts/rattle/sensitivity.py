@@ -123,8 +123,8 @@ def _blocks_of(size: Any, keys: int, path: Path) -> int:
     blocks = int(size) // (keys + 2) if isinstance(size, int) else 0
     if blocks < LEAST_BLOCKS:
         raise CommandError(
-            f"{path}: &campaign size = {size}, which are the scenes, is less than {LEAST_BLOCKS} blocks of {keys + 2} "
-            f"scenes; write size = {LEAST_BLOCKS * (keys + 2)} at least, or give --blocks."
+            f"{path}: &campaign size = {size}, which are the scenes, holds no {LEAST_BLOCKS} blocks of "
+            f"{keys + 2}; write size = {LEAST_BLOCKS * (keys + 2)} at least, or give --blocks."
         )
     return 1 << (blocks.bit_length() - 1)
 
