@@ -1,0 +1,16 @@
+"""Recordings of a test bench: channels of its files, the angle of a shaft, mean cycles, run-ups, two encoders."""
+
+from rattle.recordings.angle import ShaftAngle, resample_on_angle, shaft_angle
+from rattle.recordings.channels import Channel, choose, read_channels, with_units
+from rattle.recordings.faults import RecordingError
+
+__all__ = [
+    "Channel",
+    "RecordingError",
+    "ShaftAngle",
+    "choose",
+    "read_channels",
+    "resample_on_angle",
+    "shaft_angle",
+    "with_units",
+]

@@ -1,0 +1,301 @@
+"""Recordings in text: separator, decimal mark, heads, units and comments are found from the lines themselves."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from rattle.recordings import units
+from rattle.recordings.faults import RecordingError, library
+from rattle.recordings.raw import Raw
+
+# Separator and decimal mark; of several that fit as many lines the first.
+DIALECTS = ((";", ","), (";", "."), ("\t", ","), ("\t", "."), (",", "."), ("|", "."), (" ", ","), (" ", "."))
+WORDS = {"\t": "tabs", " ": "blanks", ";": "semicolons", ",": "commas", "|": "bars"}
+COMMENT = ("#", "!", "%", "//")
+GAPS = ("", "nan", "na", "n/a", "-", "--", "null", "none", "#n/a", "#nv", "invalid")
+TIME_NAMES = re.compile(r"^(t|time|times|timestamp|zeit|uhrzeit|zeitstempel)\b|time\b|zeit\b", re.IGNORECASE)
+CLOCK = re.compile(r"^(\d{4}-\d\d?-\d\d?[ T]|\d\d?[./]\d\d?[./]\d{2,4} )?\d\d?:\d\d:\d\d([.,]\d+)?Z?$")
+SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0}
+SAMPLE = 400
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How the lines of a text are to be read."""
+
+    separator: str
+    decimal: str
+    columns: int
+    first: int
+
+    def split(self, line: str) -> list[str]:
+        if self.separator == " ":
+            return line.split()
+        return [cell.strip() for cell in next(csv.reader([line.strip(" ")], delimiter=self.separator), [])]
+
+
+def read_text(path: Path, notes: list[str]) -> list[Raw]:
+    """Every column of numbers; one of time or, where none is, none gives the times."""
+    lines = _decoded(path, notes).splitlines()
+    kept = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and not _is_comment(line)]
+    layout = _layout(path, [line for _, line in kept])
+    names, given = _heads(path, layout, kept, lines, notes)
+    numbers, table = _table(path, layout, kept[layout.first :], names)
+    time_at = _time_column(names, given, table)
+    time = None if time_at is None else _seconds(table[time_at], given[time_at], names[time_at])
+    return [
+        Raw(name, unit, column, time, numbers)
+        for place, (name, unit, column) in enumerate(zip(names, given, table, strict=True))
+        if place != time_at and np.isfinite(column).any() | (len(column) > 0)
+    ]
+
+
+def _decoded(path: Path, notes: list[str]) -> str:
+    content = path.read_bytes()
+    if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        try:
+            return content.decode("utf-16")
+        except UnicodeDecodeError:
+            raise RecordingError(f"{path} is neither text nor a known format of recordings.") from None
+    if b"\0" in content:
+        raise RecordingError(f"{path} is neither text nor a known format of recordings.")
+    try:
+        return content.decode("utf-8-sig").rstrip("\x1a")
+    except UnicodeDecodeError:
+        text = content.decode("latin-1").rstrip("\x1a")
+        if sum(not (c.isprintable() or c.isspace()) for c in text[:4000]) > 40:
+            raise RecordingError(f"{path} is neither text nor a known format of recordings.") from None
+        notes.append(f"{path}: it is no UTF-8; its letters are taken as latin-1.")
+        return text
+
+
+def _is_comment(line: str) -> bool:
+    return line.lstrip().lstrip('"').startswith(COMMENT) and not line.lower().lstrip().startswith("#n")
+
+
+def _is_number(cell: str, decimal: str) -> bool:
+    cell = cell.strip()
+    if decimal == ",":
+        if "." in cell and "," in cell:
+            return False
+        cell = cell.replace(",", ".")
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return "_" not in cell
+
+
+def _is_data(cells: Sequence[str], decimal: str) -> bool:
+    numbers = [_is_number(cell, decimal) and cell.lower() != "nan" for cell in cells]
+    return all(
+        number or cell.lower() in GAPS or CLOCK.match(cell)
+        for number, cell in zip(numbers, cells, strict=True)
+    ) and any(number or cell.lower() == "nan" for number, cell in zip(numbers, cells, strict=True))
+
+
+def _layout(path: Path, lines: list[str]) -> Layout:
+    """The separator and decimal mark with which most lines are as many numbers."""
+    if not lines:
+        raise RecordingError(f"{path} has no line of numbers.")
+    step = max(1, len(lines) // SAMPLE)
+    sample = lines[: SAMPLE // 4] + lines[SAMPLE // 4 :: step]
+    best: tuple[int, int, Layout] | None = None
+    for separator, decimal in DIALECTS:
+        layout = Layout(separator, decimal, 0, 0)
+        counts = Counter(
+            len(cells) for line in sample if _is_data(cells := _without_end(layout.split(line)), decimal)
+        )
+        if not counts:
+            continue
+        columns, rows = max(counts.items(), key=lambda item: (item[1], item[0]))
+        heads = max((len(_without_end(layout.split(line))) for line in sample[:30]), default=0)
+        if separator in line_marks(sample) or columns > 1 or separator == " ":
+            score = (rows, min(columns, 2) + (heads == columns))
+            if best is None or score > best[:2]:
+                best = (*score, Layout(separator, decimal, columns, 0))
+    if best is None:
+        raise RecordingError(f"{path} has no line of numbers.")
+    layout = best[2]
+    for first, line in enumerate(lines):
+        if len(cells := _without_end(layout.split(line))) == layout.columns and _is_data(
+            cells, layout.decimal
+        ):
+            break
+    if layout.separator == "," and first > 0:
+        heads = len(_without_end(layout.split(lines[first - 1])))
+        if layout.columns == 2 * heads:
+            raise RecordingError(
+                f"{path}: commas stand between its columns and within its numbers ({heads} heads, "
+                f"{layout.columns} numbers a line); write it with semicolons between the columns."
+            )
+    return Layout(layout.separator, layout.decimal, layout.columns, first)
+
+
+def line_marks(lines: Iterable[str]) -> set[str]:
+    """Which of the separators stand anywhere in lines."""
+    text = "".join(lines)
+    return {mark for mark in WORDS if mark in text}
+
+
+def _without_end(cells: list[str]) -> list[str]:
+    """The cells of a line without an empty one behind a separator at its end."""
+    return cells[:-1] if len(cells) > 1 and not cells[-1] else cells
+
+
+def _heads(
+    path: Path, layout: Layout, kept: list[tuple[int, str]], lines: list[str], notes: list[str]
+) -> tuple[list[str], list[str]]:
+    """Names and units of the columns: from rows above the numbers, or a comment that has as many words."""
+    above = [(number, _without_end(layout.split(line))) for number, line in kept[: layout.first]]
+    rows = [
+        (number, _padded(cells, layout.columns)) for number, cells in above if len(cells) <= layout.columns
+    ]
+    full = [(n, cells) for n, cells in rows if layout.columns == 1 or sum(map(bool, cells)) > 1]
+    names: list[str] = []
+    row_of_units: list[str] = []
+    if full and _is_units(full[-1][1]) and len(full) > 1:
+        row_of_units, names = full[-1][1], full[-2][1]
+    elif full:
+        with_units = [place for place, (_, cells) in enumerate(full) if _is_units(cells)]
+        if with_units and with_units[-1] > 0:
+            row_of_units, names = full[with_units[-1]][1], full[with_units[-1] - 1][1]
+        else:
+            names = full[-1][1]
+    else:
+        names = _commented(layout, lines[: kept[layout.first][0] - 1])
+    if not names:
+        notes.append(f"{path}: it has no heads; its columns are called column_1 and so on.")
+        names = [""] * layout.columns
+    spelt = [_name_and_unit(cell) for cell in names]
+    found = [name or f"column_{place}" for place, (name, _) in enumerate(spelt, 1)]
+    given = [unit for _, unit in spelt]
+    for place, cell in enumerate(row_of_units):
+        if cell:
+            given[place] = units.plain(cell)
+    told = f"{path}: {WORDS[layout.separator]} between columns"
+    notes.append(told + (", decimal commas." if layout.decimal == "," else "."))
+    return found, given
+
+
+def _padded(cells: list[str], count: int) -> list[str]:
+    return cells + [""] * (count - len(cells))
+
+
+def _is_units(cells: Sequence[str]) -> bool:
+    """Whether a row of a head holds units: most cells are, and none is a longer word."""
+    filled = [cell for cell in cells if cell]
+    known = [units.is_known(cell) or re.fullmatch(r"[\[(].*[\])]", cell) is not None for cell in filled]
+    return bool(filled) and sum(known) > 0.6 * len(filled)
+
+
+def _commented(layout: Layout, lines: Sequence[str]) -> list[str]:
+    """The heads in the last comment above the numbers that has as many words."""
+    for line in reversed(lines):
+        if _is_comment(line):
+            cells = _without_end(layout.split(line.lstrip().lstrip('"#!%/ ').rstrip('"')))
+            if len(cells) == layout.columns:
+                return cells
+    return []
+
+
+def _name_and_unit(head: str) -> tuple[str, str]:
+    """`speed [1/min]` and `speed (1/min)` are a name with a unit; of `speed_rpm` the end tells it."""
+    if found := re.fullmatch(r"(.*?)\s*(?:\[([^\]]*)\]|\(([^)]*)\)|/ ?([^/]+(?:/[^/]+)?))", head):
+        name, unit = found[1], found[2] or found[3] or found[4] or ""
+        if found[2] is not None or units.is_known(unit):
+            return name.strip() or head, units.plain(unit)
+    name, _, end = head.rpartition("_")
+    if name and units.is_known(end):
+        return head, units.plain(end)
+    return head, units.plain(head) if units.is_known(head) and units.plain(head) in ("rpm", "deg") else ""
+
+
+def _table(
+    path: Path, layout: Layout, rows: list[tuple[int, str]], names: Sequence[str]
+) -> tuple[np.ndarray, list[np.ndarray]]:
+    """The numbers of each column, and the lines on which they stand."""
+    pandas = library("pandas")
+    numbers = np.array([number for number, _ in rows])
+    text = "\n".join(line.strip(" ") for _, line in rows)
+    options = {"sep": layout.separator} if layout.separator != " " else {"sep": r"\s+"}
+    width = layout.columns + 1
+    try:
+        frame = pandas.read_csv(
+            io.StringIO(text + "\n"),
+            header=None,
+            names=range(width),
+            index_col=False,
+            decimal=layout.decimal,
+            skip_blank_lines=False,
+            skipinitialspace=True,
+            keep_default_na=False,
+            na_values=[*GAPS, *(word.upper() for word in GAPS), "NaN", "None", "Null"],
+            low_memory=False,
+            float_precision="round_trip",
+            **options,
+        )
+    except (ValueError, pandas.errors.ParserError) as fault:
+        found = re.search(r"line (\d+)", str(fault))
+        place = f", line {numbers[min(int(found[1]), len(rows)) - 1]}" if found else ""
+        raise RecordingError(
+            f"{path}{place}: {layout.columns} columns were expected, there are more."
+        ) from None
+    if len(frame) != len(rows):
+        raise RecordingError(f"{path}: a quote opens in it that does not close.")
+    extra = frame[width - 1].notna().to_numpy()
+    if extra.any():
+        line = numbers[int(np.argmax(extra))]
+        raise RecordingError(
+            f"{path}, line {line}: it has more than the {layout.columns} columns of the others."
+        )
+    return numbers, [
+        _column(path, frame[place], names[place], numbers, layout.decimal) for place in range(layout.columns)
+    ]
+
+
+def _column(path: Path, cells: object, name: str, lines: np.ndarray, decimal: str) -> np.ndarray:
+    pandas = library("pandas")
+    if cells.dtype.kind in "fiu":
+        return cells.to_numpy(dtype=float)
+    words = cells.fillna("").astype(str).str.strip()
+    if words.str.match(CLOCK).mean() > 0.9:
+        stamps = pandas.to_datetime(
+            words.str.replace(",", "."), errors="coerce", format="mixed", dayfirst=True
+        )
+        return (stamps - stamps.dropna().iloc[0]).dt.total_seconds().to_numpy(dtype=float)
+    plain = words.str.replace(",", ".") if decimal == "," else words
+    values = pandas.to_numeric(plain.where(plain != "", "nan"), errors="coerce").to_numpy(dtype=float)
+    strange = np.isnan(values) & ~words.str.lower().isin(GAPS).to_numpy()
+    if strange.any():
+        at = int(np.argmax(strange))
+        raise RecordingError(
+            f"{path}, line {lines[at]}: '{words.iloc[at][:40]}' in column '{name}' is no number."
+        )
+    return values
+
+
+def _time_column(names: Sequence[str], given: Sequence[str], table: Sequence[np.ndarray]) -> int | None:
+    """The column of time: by its name, else the first whose unit is one of time, if it ascends."""
+    for place, (name, unit) in enumerate(zip(names, given, strict=True)):
+        if TIME_NAMES.search(name) and unit in ("", *SECONDS):
+            return place
+    for place, unit in enumerate(given):
+        if unit in SECONDS and np.all(np.diff(table[place]) >= 0.0):
+            return place
+    for place, name in enumerate(names):
+        if name in SECONDS and name != "min" and np.all(np.diff(table[place]) >= 0.0):
+            return place
+    return None
+
+
+def _seconds(values: np.ndarray, unit: str, name: str) -> np.ndarray:
+    return values * SECONDS.get(unit or (name if name in SECONDS else "s"), 1.0)
