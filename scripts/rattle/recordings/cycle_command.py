@@ -85,7 +85,7 @@ def measure(arguments: argparse.Namespace, notes: list[str]) -> tuple[cycles.Mea
     quantity = signals.SPEED
     if signal is None:
         shaft = options.angle_of(arguments, reference)
-        signal = signals.speed_of(shaft, reference.name, reference.source, notes)
+        notes.append(f"the signal is the speed of the shaft, from the angle by '{reference.name}'.")
     else:
         signal, quantity = signals.taken(signal, arguments.radius, notes)
         if signal.has_time:

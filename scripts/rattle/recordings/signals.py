@@ -9,7 +9,6 @@ import numpy as np
 
 from rattle.keys import key_table
 from rattle.recordings import units
-from rattle.recordings.angle import ShaftAngle
 from rattle.recordings.channels import Channel
 from rattle.recordings.cycles import MeanCycle
 from rattle.recordings.faults import RecordingError
@@ -65,13 +64,6 @@ def _converted(channel: Channel, quantity: Taken, scale: float, notes: list[str]
     same = "as recorded" if factor == 1.0 else f"times {factor:.6g}, from {channel.unit}"
     notes.append(f"'{channel.name}' is in {shown}, {same}.")
     return replace(channel, unit=quantity.unit, values=channel.values * (factor * scale))
-
-
-def speed_of(shaft: ShaftAngle, name: str, source: str, notes: list[str]) -> Channel:
-    """The speed of the shaft from its angle."""
-    notes.append(f"the signal is the speed of the shaft, from the slope of its angle by '{name}'.")
-    values = shaft.speed(shaft.angle) * (30.0 / np.pi)
-    return Channel(f"speed by {name}", "rpm", shaft.time, values, source)
 
 
 def write_csv(path: Path, cycle: MeanCycle, quantity: Taken) -> None:

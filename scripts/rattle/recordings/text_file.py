@@ -125,11 +125,12 @@ def _layout(path: Path, lines: list[str]) -> Layout:
     if best is None:
         raise RecordingError(f"{path} has no line of numbers.")
     layout = best[2]
-    for first, line in enumerate(lines):
-        if len(cells := _without_end(layout.split(line))) == layout.columns and _is_data(
-            cells, layout.decimal
-        ):
-            break
+    first = next(
+        place
+        for place, line in enumerate(lines)
+        if len(cells := _without_end(layout.split(line))) == layout.columns
+        and _is_data(cells, layout.decimal)
+    )
     if layout.separator == "," and first > 0:
         heads = len(_without_end(layout.split(lines[first - 1])))
         if layout.columns == 2 * heads:
@@ -240,7 +241,6 @@ def _table(
             keep_default_na=False,
             na_values=[*GAPS, *(word.upper() for word in GAPS), "NaN", "None", "Null"],
             low_memory=False,
-            float_precision="round_trip",
             **options,
         )
     except (ValueError, pandas.errors.ParserError) as fault:
