@@ -16,6 +16,8 @@ from rattle.recordings.faults import RecordingError
 TURN = 2.0 * np.pi
 # A gap of a recording that is bridged unless more is allowed [s].
 BRIDGE = 0.01
+# Units of what is no tacho.
+NO_PULSES = ("N", "N m", "m/s2", "rad", "rad/s", "rad/s2")
 Kind = Literal["angle", "tacho", "speed"]
 # Degree of the splines through samples.
 DEGREE = 5
@@ -256,6 +258,12 @@ def _from_pulses(channel: Channel, teeth: int, missing: int, bridge: float) -> S
     """Rising edges of a wheel; drop-outs are spans of several teeth where the wheel has no gap."""
     if not 0 <= missing < teeth:
         raise RecordingError(f"a wheel of {teeth} teeth cannot miss {missing}.")
+    for unit in NO_PULSES:
+        if channel.unit and units.fits(channel.unit, unit):
+            raise RecordingError(
+                f"{channel.source}: '{channel.name}' is in {channel.unit}, so it is no tacho; pulses are in V or have "
+                "no unit."
+            )
     notes: list[str] = []
     edges = rising_edges(channel)
     if len(edges) < max(4, teeth - missing):

@@ -13,6 +13,8 @@ from rattle.recordings.channels import Channel
 from rattle.recordings.faults import RecordingError
 
 SAMPLES = 360
+# Samples of a cycle that rattle takes at least.
+LEAST_SAMPLES = 4
 # Scatter of the cycles beyond which the user is warned, and drift of the speed that is named as its cause.
 WIDE_SCATTER = 0.1
 DRIFT = 0.01
@@ -152,6 +154,12 @@ def _samples_of_channel(
         raise RecordingError(
             f"{channel.source}: '{channel.name}' is constant at {values[0]:.6g}; nothing oscillates."
         )
+    per_cycle = length / float(np.median(np.diff(angle)))
+    if per_cycle < LEAST_SAMPLES:
+        raise RecordingError(
+            f"{channel.source}: '{channel.name}' has {per_cycle:.2g} samples a cycle of {length / TURN:.0f} revolutions; "
+            f"it takes {LEAST_SAMPLES}."
+        )
     begin, cycles, closed_angle, closed_values = _whole_cycles(channel, shaft, angle, values, length)
     samples = round(length / TURN) * _dense(angle, wanted)
     even = begin + np.arange(cycles * samples) * (length / samples)
@@ -191,6 +199,11 @@ def _speed_of_shaft(shaft: ShaftAngle, length: float, wanted: int) -> _Record:
         start = begin + cycle * length
         inside = slice(*np.searchsorted(shaft.angle, [start - 1e-9, start + length + 1e-9]))
         angle, times = shaft.angle[inside] - start, rest[inside]
+        if len(angle) < 2 * LEAST_SAMPLES:
+            raise RecordingError(
+                f"{len(angle)} pulses or angles in a cycle of {length / TURN:.0f} revolutions do not show what the speed "
+                f"does within it; it takes {2 * LEAST_SAMPLES}."
+            )
         if highest is None:
             highest = _harmonics_that_fit(angle, length)
         matrix = _harmonic_matrix(angle, length, highest)
