@@ -1,4 +1,4 @@
-"""Recordings of a test bench with a known truth: the speed of a shaft over its angle, and what follows from it."""
+"""Recordings of a test bench with a known truth: the speed of a shaft over its angle."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ FORCE = {1.0: (40.0, 0.5), 2.0: (150.0, -0.7), 3.0: (25.0, 2.0)}
 
 @dataclass
 class Bench:
-    """A shaft whose speed [1/min] is `mean` times one and its orders, drifting in all by a share of itself."""
+    """A shaft whose speed [1/min] is `mean` times one and its orders, drifting by a share in all."""
 
     mean: float = 812.7
     orders: Mapping[float, tuple[float, float]] = field(default_factory=lambda: dict(ORDERS))
@@ -47,7 +47,7 @@ class Bench:
         return CubicSpline(self._time, self._angle)(time)
 
     def wheel(self, time: np.ndarray, teeth: int, missing: int = 0) -> np.ndarray:
-        """Pulses of 5 V of a wheel, whose edges have the slope of a sensor: tooth n rises at n + 1/4 teeth."""
+        """Pulses of 5 V of a wheel, with edges as sloping as a sensor's: tooth n rises at n + 1/4 teeth."""
         tooth = self.angle(time) * teeth / TURN
         pulses = np.clip(2.5 - 8.0 * np.cos(TURN * tooth), 0.0, 5.0)
         return np.where(np.floor(tooth) % teeth < teeth - missing, pulses, 0.0)

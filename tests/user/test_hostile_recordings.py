@@ -1,4 +1,4 @@
-"""Recordings that cannot be used get a sentence each: what is wrong, where, what to type; nothing is written."""
+"""Recordings that cannot be used get a sentence each: what is wrong, where, what to type."""
 
 from __future__ import annotations
 
@@ -67,12 +67,20 @@ CASES: dict[str, tuple[bytes, tuple[str, ...], str]] = {
     "constant force": (text("time_s,speed_rpm,force_N", TIME, SPEED, 0.0 * TIME), BY_SPEED, "constant at 0"),
     "all not a number": (text("time_s,speed_rpm", TIME, NAN), (), "all are gaps"),
     "signal not a number": (text("time_s,speed_rpm,force_N", TIME, SPEED, NAN), BY_SPEED, "has 0 samples"),
-    "time not a number": (text("time_s,speed_rpm", NAN, SPEED), (), "no time"),
-    "time goes back": (text("time_s,speed_rpm", changed(TIME, 7, 0.001), SPEED), (), "line 9: time goes back"),
+    "time not a number": (text("time_s,speed_rpm", NAN, SPEED), (), "no sample of a known time"),
+    "time goes back": (
+        text("time_s,speed_rpm", changed(TIME, 7, 0.001), SPEED),
+        (),
+        "line 9: time goes back",
+    ),
     "time stands still": (text("time_s,speed_rpm", 0.0 * TIME, SPEED), (), "stands still"),
     "infinite": (text("time_s,speed_rpm", TIME, changed(SPEED, 5, np.inf)), (), "line 7: 'inf'"),
     "too large": (text("time_s,speed_rpm", TIME, changed(SPEED, 5, 1e200)), (), "line 7"),
-    "word among numbers": ("\n".join([*LINES[:9], "0.004,error", *LINES[10:]]).encode(), (), "line 10: 'error'"),
+    "word among numbers": (
+        "\n".join([*LINES[:9], "0.004,error", *LINES[10:]]).encode(),
+        (),
+        "line 10: 'error'",
+    ),
     "more columns": ("\n".join([*LINES[:9], "0.004,1,2,3", *LINES[10:]]).encode(), (), "line 10"),
     "commas everywhere": (b"time,speed\n" + b"0,001,800,5\n0,002,801,5\n" * 9, (), "semicolons between"),
     "a quote that does not close": (b"time_s,speed_rpm\n" + b'0,1\n1,"2\n2,3\n3,4\n' * 9, (), ""),
@@ -84,7 +92,11 @@ CASES: dict[str, tuple[bytes, tuple[str, ...], str]] = {
     "several channels": (BOTH, (), "choose by --signal: speed_rpm [rpm], force_N [N]"),
     "nothing tells the angle": (BOTH, ("--signal", "force_N"), "--tacho (with --pulses)"),
     "no unit": (text("time_s,x", TIME, SPEED), (), "'x' has no unit"),
-    "unit that does not fit": (text("time_s,x [kg]", TIME, SPEED), (), "'x' is in kg"),
+    "unit that does not fit": (
+        text("time_s,x [kg]", TIME, SPEED),
+        (),
+        "'x' is in kg; rattle takes the speed",
+    ),
     "unknown unit": (text("time_s,x [furlong/floop]", TIME, SPEED), (), "furlong/floop"),
     "unit of another channel": (GOOD, ("--unit", "force=N"), "has no channel 'force'"),
     "torque without radius": (text("time_s,x [N m]", TIME, SPEED), (), "--radius"),
@@ -93,17 +105,27 @@ CASES: dict[str, tuple[bytes, tuple[str, ...], str]] = {
     "wrong channel as tacho": (BOTH, ("--tacho", "force_N"), "so it is no tacho"),
     "noise as tacho": (text("time_s,volts,force_N", TIME, NOISE, FORCE), TACHO, ""),
     "constant tacho": (text("time_s,volts,force_N", TIME, 0.0 * TIME, FORCE), TACHO, "has no pulses"),
-    "no gap in the wheel": (VOLTS, (*TACHO, "--pulses", "60", "--missing", "2"), "check --pulses and --missing"),
+    "no gap in the wheel": (
+        VOLTS,
+        (*TACHO, "--pulses", "60", "--missing", "2"),
+        "check --pulses and --missing",
+    ),
     "all teeth missing": (VOLTS, (*TACHO, "--pulses", "2", "--missing", "2"), "cannot miss 2"),
     "a pulse a cycle": (VOLTS, ("--tacho", "volts", "--pulses", "3"), "do not show what the speed"),
     "few pulses": (VOLTS, (*TACHO, "--pulses", "10000"), "fewer than a revolution"),
     "tacho stops": (
-        text("time_s,volts,force_N", TIME, np.where(abs(TIME - 0.5) < 0.1, 0.0, ENGINE.wheel(TIME, 10)), FORCE),
+        text(
+            "time_s,volts,force_N", TIME, np.where(abs(TIME - 0.5) < 0.1, 0.0, ENGINE.wheel(TIME, 10)), FORCE
+        ),
         (*TACHO, "--pulses", "10"),
         "drops out at 0.39",
     ),
     "wrong channel as angle": (text("time_s,a_deg,force_N", TIME, NOISE, FORCE), ("--angle", "a_deg"), ""),
-    "constant angle": (text("time_s,a_deg,f_N", TIME, 0.0 * TIME, FORCE), ("--angle", "a_deg"), "no angle of a"),
+    "constant angle": (
+        text("time_s,a_deg,f_N", TIME, 0.0 * TIME, FORCE),
+        ("--angle", "a_deg"),
+        "no angle of a",
+    ),
     "angle goes back": (
         text("time_s,a_deg", TIME, changed(np.degrees(ENGINE.angle(TIME)), 900, 10.0)),
         ("--angle", "a_deg"),
@@ -111,17 +133,32 @@ CASES: dict[str, tuple[bytes, tuple[str, ...], str]] = {
     ),
     "speed through zero": (text("time_s,speed_rpm", TIME, SPEED - 810.0), (), "keeps its sign"),
     "drop-out to zero": (text("time_s,speed_rpm", TIME, changed(SPEED, 300, 0.0)), (), "--mend"),
-    "long gap": (text("time_s,speed_rpm", TIME, changed(SPEED, slice(300, 400), np.nan)), (), "--bridge 0.051"),
-    "stamps missing": (text("time_s,speed_rpm", *np.delete([TIME, SPEED], slice(300, 400), 1)), (), "--bridge"),
+    "long gap": (
+        text("time_s,speed_rpm", TIME, changed(SPEED, slice(300, 400), np.nan)),
+        (),
+        "--bridge 0.051",
+    ),
+    "stamps missing": (
+        text("time_s,speed_rpm", *np.delete([TIME, SPEED], slice(300, 400), 1)),
+        (),
+        "--bridge",
+    ),
     "less than a cycle": (text("time_s,speed_rpm", TIME[:220], SPEED[:220]), (), "at least one whole cycle"),
     "less than a turn": (text("time_s,speed_rpm", TIME[:20], SPEED[:20]), (), "at least one"),
-    "few samples a cycle": (text("time_s,force_N,n_rpm", TIME[::140], FORCE[::140], SPEED[::140]),
-                            ("--signal", "force_N", "--speed", "n_rpm"), "samples a cycle of 2 revolutions; it takes 4"),
+    "few samples a cycle": (
+        text("time_s,force_N,n_rpm", TIME[::140], FORCE[::140], SPEED[::140]),
+        ("--signal", "force_N", "--speed", "n_rpm"),
+        "samples a cycle of 2 revolutions; it takes 4",
+    ),
     "part outside": (GOOD, ("--part", "5,6"), "--part leaves 0 samples"),
     "no order at that speed": (text("time_s,force_N", TIME, NOISE), ("--speed-near", "800"), "--speed-near"),
-    "too short to find a speed": (text("time_s,force_N", TIME[:400], FORCE[:400]), ("--speed-near", "800"), "three"),
+    "too short to find a speed": (
+        text("time_s,force_N", TIME[:400], FORCE[:400]),
+        ("--speed-near", "800"),
+        "three",
+    ),
     "unit given twice": (GOOD, ("--unit", "speed_rpm=Hz", "--unit", "speed_rpm=rpm"), "twice"),
-}  # fmt: skip
+}
 
 NAMED: dict[str, tuple[str, bytes, str]] = {
     "text as MDF": ("run.mf4", GOOD, "no MDF file, in spite of its name"),
@@ -179,7 +216,7 @@ def test_places_that_cannot_be_read_or_written(tmp_path: Path) -> None:
 
 
 def test_two_tachos_that_are_swapped(tmp_path: Path) -> None:
-    """The other shaft turns 11/38 as fast: its pulses are as good, and the cycles of the force are none."""
+    """The other shaft turns 11/38 as fast: its pulses are as good, and no cycle of the force is one."""
     time = bench.times(2.0, 10000.0)
     engine = bench.Bench(span=2.0)
     force = bench.series({0.5: (50.0, 0.0), **bench.FORCE}, engine.angle(time))

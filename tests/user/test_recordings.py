@@ -160,7 +160,8 @@ def test_angles_by_every_kind_of_channel_agree() -> None:
     assert off(channel("rad", -truth)) < 1e-9
     assert off(channel("rad/s", ENGINE.speed(truth))) < 1e-6
     assert off(channel("Hz", -ENGINE.speed(truth) / bench.TURN)) < 1e-6
-    # An encoder of 1024 counts is off by a count, evenly: its standard deviation is that over the root of twelve.
+    # An encoder of 1024 counts is off by a count, evenly: its standard deviation is that over the root of
+    # twelve.
     counted = np.floor(truth / bench.TURN * 1024.0) / 1024.0
     assert off(channel("rev", counted)) < 1.1 * bench.TURN / 1024.0 / np.sqrt(12.0)
     # Edges stand between samples, evenly.

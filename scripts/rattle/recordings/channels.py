@@ -79,7 +79,8 @@ def read_channels(
 ) -> list[Channel]:
     """All channels of a recording: text (CSV), MDF, TDMS, UFF 58, MAT or HDF5.
 
-    `rate` [Hz] stands for times that the file does not have. What was made of the file is appended to `notes`.
+    `rate` [Hz] stands for times that the file does not have. What was made of the file is appended to
+    `notes`.
     """
     path = Path(path)
     told = [] if notes is None else notes
@@ -100,9 +101,8 @@ def read_channels(
     if not channels:
         raise RecordingError(f"{path} has no channel of numbers.")
     if not any(len(channel.values) >= LEAST_SAMPLES for channel in channels):
-        raise RecordingError(
-            f"{path} has {max(len(c.values) for c in channels)} sample; that is no recording."
-        )
+        count = max(len(channel.values) for channel in channels)
+        raise RecordingError(f"{path} has {count or 'no'} sample of a known time; that is no recording.")
     if not any(np.isfinite(channel.values).any() for channel in channels):
         raise RecordingError(f"{path} has no number in any channel: all are gaps.")
     return channels

@@ -29,10 +29,10 @@ SIGNIFICANT = 4.0
 class MeanCycle:
     """The mean of whole cycles at equal angles, and its harmonics: a cos(order angle + phase).
 
-    `angle` [rad] begins with 0. `amplitude_errors` and `phase_errors` [rad] are standard errors of the means, not
-    a number of a single cycle. `scatter` is the rms by which cycles differ from their mean over the rms of what
-    oscillates of it. `speed_range` [1/min] is that of the mean speeds of the cycles, `kept` how many harmonics
-    stand out of the scatter. `warnings` and `notes` are sentences for the user.
+    `angle` [rad] begins with 0. `amplitude_errors` and `phase_errors` [rad] are standard errors of the
+    means, not a number of a single cycle. `scatter` is the rms by which cycles differ from their mean over
+    the rms of what oscillates of it. `speed_range` [1/min] is that of the mean speeds of the cycles, `kept`
+    how many harmonics stand out of the scatter. `warnings` and `notes` are sentences for the user.
     """
 
     name: str
@@ -67,12 +67,12 @@ def mean_cycle(
     mend: bool = False,
     bridge: float = BRIDGE,
 ) -> MeanCycle:
-    """Average the whole cycles of a steady recording; without a channel, of the speed of the shaft itself [1/min].
+    """Average the whole cycles of a steady channel, or without one of the speed of the shaft itself [1/min].
 
     The channel is resampled onto equal angles, at least as dense as it was recorded, by a spline of degree 5;
     after the mean is taken, orders that `samples_per_revolution` cannot hold are cut off in its spectrum, so
-    none is folded back. `derivative`: the signal is a speed, of which rattle takes the derivative, so that its
-    orders count by their accelerations.
+    none is folded back. `derivative`: the signal is a speed, of which rattle takes the derivative, so that
+    its orders count by their accelerations.
     """
     length = TURN * cycle_revolutions
     if channel is None:
@@ -157,7 +157,8 @@ def _samples_of_channel(
     per_cycle = length / float(np.median(np.diff(angle)))
     if per_cycle < LEAST_SAMPLES:
         raise RecordingError(
-            f"{channel.source}: '{channel.name}' has {per_cycle:.2g} samples a cycle of {length / TURN:.0f} revolutions; "
+            f"{channel.source}: '{channel.name}' has {per_cycle:.2g} samples a cycle of "
+            f"{length / TURN:.0f} revolutions; "
             f"it takes {LEAST_SAMPLES}."
         )
     begin, cycles, closed_angle, closed_values = _whole_cycles(channel, shaft, angle, values, length)
@@ -180,11 +181,11 @@ def _samples_of_channel(
 
 
 def _speed_of_shaft(shaft: ShaftAngle, length: float, wanted: int) -> _Record:
-    """The cycles of the speed of a shaft [1/min], from harmonics of the times at which its angles were passed.
+    """The cycles of the speed of a shaft [1/min], from harmonics of the times of its angles.
 
-    In each cycle the times, less their slow course, are a straight line and harmonics by least squares: also of a
-    wheel with missing teeth, where a spline would have to guess. There are as many harmonics as the gaps between
-    the angles allow.
+    In each cycle the times, less their slow course, are a straight line and harmonics by least squares:
+    also of a wheel with missing teeth, where a spline would have to guess. There are as many harmonics as
+    the gaps between the angles allow.
     """
     begin, cycles = _first_cycle(shaft, shaft.angle, length)
     if cycles < 1:
@@ -201,7 +202,8 @@ def _speed_of_shaft(shaft: ShaftAngle, length: float, wanted: int) -> _Record:
         angle, times = shaft.angle[inside] - start, rest[inside]
         if len(angle) < 2 * LEAST_SAMPLES:
             raise RecordingError(
-                f"{len(angle)} pulses or angles in a cycle of {length / TURN:.0f} revolutions do not show what the speed "
+                f"{len(angle)} pulses or angles in a cycle of {length / TURN:.0f} revolutions do not show "
+                "what the speed "
                 f"does within it; it takes {2 * LEAST_SAMPLES}."
             )
         if highest is None:
@@ -264,7 +266,7 @@ def _too_short(name: str, angle: np.ndarray, length: float) -> str:
 
 
 def _without_drift(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The cycles without the slow course of their means, a parabola at most; and that course, cycle by cycle."""
+    """The cycles without the slow course of their means, a parabola at most; and that course."""
     count, samples = rows.shape
     means = rows.mean(axis=1)
     if count < 4:
@@ -279,8 +281,8 @@ def _whole_cycles(
 ) -> tuple[float, int, np.ndarray, np.ndarray]:
     """Where the first whole cycle begins, how many there are, and the samples.
 
-    A recording that ends a sample before the next cycle begins holds that cycle: it is closed by the samples of
-    its beginning.
+    A recording that ends a sample before the next cycle begins holds that cycle: it is closed by the
+    samples of its beginning.
     """
     begin, cycles = _first_cycle(shaft, angle, length)
     step = float(angle[-1] - angle[-2])
@@ -347,7 +349,8 @@ def _notes(cycle: MeanCycle, record: _Record, slow: np.ndarray) -> list[str]:
     ]
     if np.ptp(slow) > 0.1 * np.std(cycle.values):
         notes.append(
-            f"its mean drifts from {slow[0]:.6g} to {slow[-1]:.6g} {cycle.unit}; the drift is taken out of the cycles."
+            f"its mean drifts from {slow[0]:.6g} to {slow[-1]:.6g} {cycle.unit}; the drift is taken out "
+            "of the cycles."
         )
     if cycle.cycles > 1:
         notes.append(f"the cycles differ from their mean by {100.0 * cycle.scatter:.3g} % of its rms.")
@@ -395,7 +398,8 @@ def _cause(rows: np.ndarray, revolutions: int, speeds: np.ndarray) -> str:
         scatter_there = _scatter(record[: count * other * per_turn].reshape(count, -1))
         if scatter_there < 0.5 * scatter:
             return (
-                f"with --cycle-revolutions {other} it would be {100.0 * scatter_there:.3g} %, so that is rather "
+                f"with --cycle-revolutions {other} it would be {100.0 * scatter_there:.3g} %, so that is "
+                "rather "
                 "what a cycle is."
             )
     if _drift(speeds) > DRIFT:
@@ -403,7 +407,8 @@ def _cause(rows: np.ndarray, revolutions: int, speeds: np.ndarray) -> str:
     slip = _slip(rows)
     if abs(slip) > 0.5:
         return (
-            f"from cycle to cycle they shift by {slip * 360.0 * revolutions / rows.shape[1]:.3g} deg, so the angle "
+            f"from cycle to cycle they shift by {slip * 360.0 * revolutions / rows.shape[1]:.3g} deg, so "
+            "the angle "
             "is not that of the shaft: check --pulses and --missing, or the speed."
         )
     return "neither its length nor the speed explains it; it is noise or unsteady, see +- of the orders."

@@ -28,7 +28,7 @@ Reader = Callable[[Path, list[str]], list[Raw]]
 
 
 def _refusing(kind: str) -> Callable[[Reader], Reader]:
-    """A reader of damaged files, too: libraries meet these with exceptions of any class, and words of their own."""
+    """A reader of damaged files, too: libraries meet these with any exception and words of their own."""
 
     def decorate(reader: Reader) -> Reader:
         @wraps(reader)

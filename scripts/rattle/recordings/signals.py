@@ -34,6 +34,10 @@ ACCELERATION = Taken("shaft", "rad/s2", "angular_acceleration [rad/s2]", "angula
 FORCE = Taken("load", "N", "force_N")
 
 
+# Units of what benches record and rattle does not take.
+OTHERS = ("kg", "V", "A", "m", "m/s", "s", "K", "Pa", "W", "J", "l/min", "%", "1")
+
+
 def taken(channel: Channel, radius: float | None, notes: list[str]) -> tuple[Channel, Taken]:
     """The channel in the unit of what rattle takes of it; `radius` [m] turns torques and accelerations."""
     for quantity in (SPEED, ACCELERATION, FORCE):
@@ -46,16 +50,23 @@ def taken(channel: Channel, radius: float | None, notes: list[str]) -> tuple[Cha
         if units.fits(channel.unit, unit):
             if radius is None:
                 raise RecordingError(
-                    f"'{channel.name}' is {words} in {channel.unit}; rattle takes {quantity.unit}: give the radius "
-                    "of it by --radius, in m (of a torque on the loose gear r_b2 cos beta_b, which --check prints)."
+                    f"'{channel.name}' is {words} in {channel.unit}; rattle takes {quantity.unit}: give "
+                    "the radius "
+                    "of it by --radius, in m (of a torque on the loose gear r_b2 cos beta_b, which "
+                    "--check prints)."
                 )
             scaled = _converted(channel, replace(quantity, unit=unit), 1.0 / radius, notes)
             notes.append(f"divided by the radius of {radius:g} m it is in {quantity.unit}.")
             return replace(scaled, unit=quantity.unit), quantity
-    factor = units.factor(
-        channel.unit, "N", channel.name
-    )  # which says that it has no unit, or none that is known
-    raise AssertionError(f"{channel.unit} is {factor} N and was not taken")
+    if channel.unit and any(units.fits(channel.unit, other) for other in OTHERS):
+        raise RecordingError(
+            f"'{channel.name}' is in {channel.unit}; rattle takes the speed of a shaft (1/min, rad/s, "
+            "Hz), its angular "
+            "acceleration (rad/s2), its angle (deg), or a force (N): choose another --signal, or give its "
+            "--unit."
+        )
+    units.factor(channel.unit, SPEED.unit, channel.name)  # says that its unit is missing or not known
+    raise AssertionError(channel.unit)
 
 
 def _converted(channel: Channel, quantity: Taken, scale: float, notes: list[str]) -> Channel:

@@ -1,4 +1,4 @@
-"""Recordings in text: separator, decimal mark, heads, units and comments are found from the lines themselves."""
+"""Recordings in text: separator, decimal mark, heads, units and comments follow from the lines."""
 
 from __future__ import annotations
 
