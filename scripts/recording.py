@@ -49,7 +49,7 @@ def main() -> int:
 
 def show(options: argparse.Namespace) -> int:
     """The channels of each file."""
-    from rattle.recordings import read_channels
+    from rattle.recordings import read_channels, units
 
     rows = [["", "channel", "unit", "samples", "from [s]", "to [s]", "least", "largest", "gaps"]]
     notes: list[str] = []
@@ -59,7 +59,9 @@ def show(options: argparse.Namespace) -> int:
             finite = channel.values[np.isfinite(channel.values)]
             span = [f"{value:.6g}" for value in (finite.min(), finite.max())] if finite.size else ["-", "-"]
             count = len(channel.values)
-            rows.append([f"{number}", channel.name, channel.unit or "-", f"{count}", *ends, *span])
+            rows.append(
+                [f"{number}", channel.name, units.shown(channel.unit) or "-", f"{count}", *ends, *span]
+            )
             rows[-1].append(f"{count - finite.size}")
     print(table.plain(rows))
     for note in notes:

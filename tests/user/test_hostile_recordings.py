@@ -89,7 +89,7 @@ CASES: dict[str, tuple[bytes, tuple[str, ...], str]] = {
     "no such channel": (GOOD, ("--signal", "force"), "has no channel 'force'; it has speed_rpm"),
     "no such number": (GOOD, ("--signal", "7"), "has no channel '7'"),
     "two of a name": (text("time_s,n,n", TIME, SPEED, SPEED), ("--signal", "n"), "choose by number, 1 or 2"),
-    "several channels": (BOTH, (), "choose by --signal: speed_rpm [rpm], force_N [N]"),
+    "several channels": (BOTH, (), "choose by --signal: speed_rpm [1/min], force_N [N]"),
     "nothing tells the angle": (BOTH, ("--signal", "force_N"), "--tacho (with --pulses)"),
     "no unit": (text("time_s,x", TIME, SPEED), (), "'x' has no unit"),
     "unit that does not fit": (

@@ -209,7 +209,7 @@ def test_a_spike_is_reported_and_mended_on_request(
     for place in range(102, 102 + count):
         lines[place] = f"{lines[place].partition(',')[0]},{value}"
     (tmp_path / "spike.csv").write_text("\n".join(lines) + "\n")
-    stem = f"'speed_rpm' is {value:g} rpm"
+    stem = f"'speed_rpm' is {value:g} 1/min"
     code, said, _ = called_here("recording.py", "spike.csv", "--output", "unmended.csv", cwd=tmp_path)
     assert (code == 0 and f"{stem}" in said and "--mend replaces" in said) or (code == 2 and value == 0.0)
     mended = cycle("spike.csv", "--mend", said=stem)
@@ -359,7 +359,7 @@ def test_channels_are_listed(tmp_path: Path) -> None:
     bench.csv(tmp_path / "a.csv", ("time_s", "n_rpm", "force [kN]"), (TIME, SPEED, SPEED))
     code, said, _ = called_here("recording.py", "list", "a.csv", cwd=tmp_path)
     assert code == 0
-    assert re.search(r"^1 +n_rpm +rpm +3777 +0 +3\.776 ", said, re.M), said
+    assert re.search(r"^1 +n_rpm +1/min +3777 +0 +3\.776 ", said, re.M), said
     assert re.search(r"^2 +force +kN ", said, re.M), said
 
 

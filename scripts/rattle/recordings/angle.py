@@ -243,7 +243,8 @@ def _from_speed(channel: Channel, bridge: float, mend: bool, notes: list[str]) -
     if not np.all(values > 0.0):
         at = int(np.argmin(values))
         raise RecordingError(
-            f"{channel.source}: '{channel.name}' is {own.values[at]:.4g} {channel.unit} at {time[at]:.6g} "
+            f"{channel.source}: '{channel.name}' is {own.values[at]:.4g} {units.shown(channel.unit)} at "
+            f"{time[at]:.6g} "
             "s; an "
             "angle needs a speed that keeps its sign; cut the recording, or let --mend replace drop-outs."
         )

@@ -67,7 +67,7 @@ class Channel:
     @property
     def label(self) -> str:
         """Name with unit."""
-        return f"{self.name} [{self.unit}]" if self.unit else self.name
+        return f"{self.name} [{units.shown(self.unit)}]" if self.unit else self.name
 
     def within(self, unit: str) -> np.ndarray:
         """The values in another unit."""

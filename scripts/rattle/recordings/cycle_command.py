@@ -194,7 +194,7 @@ def _over_angle(
 def _rows(cycle: cycles.MeanCycle) -> list[list[str]]:
     """The strongest orders, in their order."""
     shown = np.sort(np.argsort(-cycle.amplitudes, kind="stable")[:PRINTED])
-    rows = [["order", f"amplitude [{cycle.unit}]", "+-", "phase [deg]", "+-"]]
+    rows = [["order", f"amplitude [{units.shown(cycle.unit)}]", "+-", "phase [deg]", "+-"]]
     for place in shown:
         if cycle.amplitudes[place] < 1e-3 * cycle.amplitudes.max():
             continue

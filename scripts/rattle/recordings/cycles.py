@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import interpolate
 
-from rattle.recordings import mending
+from rattle.recordings import mending, units
 from rattle.recordings.angle import BRIDGE, DEGREE, TURN, ShaftAngle, angles_of, interpolation_error
 from rattle.recordings.channels import Channel
 from rattle.recordings.faults import RecordingError
@@ -349,7 +349,8 @@ def _notes(cycle: MeanCycle, record: _Record, slow: np.ndarray) -> list[str]:
     ]
     if np.ptp(slow) > 0.1 * np.std(cycle.values):
         notes.append(
-            f"its mean drifts from {slow[0]:.6g} to {slow[-1]:.6g} {cycle.unit}; the drift is taken out "
+            f"its mean drifts from {slow[0]:.6g} to {slow[-1]:.6g} {units.shown(cycle.unit)}; the drift "
+            "is taken out "
             "of the cycles."
         )
     if cycle.cycles > 1:

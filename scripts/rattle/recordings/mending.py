@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from rattle.recordings import time_axis
+from rattle.recordings import time_axis, units
 from rattle.recordings.channels import Channel
 from rattle.recordings.faults import RecordingError
 
@@ -89,7 +89,7 @@ def mended(channel: Channel, *, mend: bool, notes: list[str], trend: np.ndarray 
         around = [finite[place] for place in (begin - 1, end + 1) if 0 <= place < len(finite)]
         words = " and ".join(f"{shown[place]:.6g}" for place in around)
         fate = "replaced." if mend else "a spike or drop-out; --mend replaces it."
-        value = f"{shown[at[0]]:.6g} {channel.unit}".rstrip()
+        value = f"{shown[at[0]]:.6g} {units.shown(channel.unit)}".rstrip()
         notes.append(f"'{channel.name}' is {value} at {span}, its neighbours {words}: {fate}")
     if len(odd) > REPORTED:
         notes.append(f"'{channel.name}' has {len(odd)} of these in all, {count} samples.")

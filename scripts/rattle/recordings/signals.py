@@ -60,7 +60,8 @@ def taken(channel: Channel, radius: float | None, notes: list[str]) -> tuple[Cha
             return replace(scaled, unit=quantity.unit), quantity
     if channel.unit and any(units.fits(channel.unit, other) for other in OTHERS):
         raise RecordingError(
-            f"'{channel.name}' is in {channel.unit}; rattle takes the speed of a shaft (1/min, rad/s, "
+            f"'{channel.name}' is in {units.shown(channel.unit)}; rattle takes the speed of a shaft "
+            "(1/min, rad/s, "
             "Hz), its angular "
             "acceleration (rad/s2), its angle (deg), or a force (N): choose another --signal, or give its "
             "--unit."
@@ -71,9 +72,8 @@ def taken(channel: Channel, radius: float | None, notes: list[str]) -> tuple[Cha
 
 def _converted(channel: Channel, quantity: Taken, scale: float, notes: list[str]) -> Channel:
     factor = units.factor(channel.unit, quantity.unit, channel.name)
-    shown = "1/min" if quantity.unit == "rpm" else quantity.unit
-    same = "as recorded" if factor == 1.0 else f"times {factor:.6g}, from {channel.unit}"
-    notes.append(f"'{channel.name}' is in {shown}, {same}.")
+    same = "as recorded" if factor == 1.0 else f"times {factor:.6g}, from {units.shown(channel.unit)}"
+    notes.append(f"'{channel.name}' is in {units.shown(quantity.unit)}, {same}.")
     return replace(channel, unit=quantity.unit, values=channel.values * (factor * scale))
 
 

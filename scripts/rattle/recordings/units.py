@@ -102,6 +102,11 @@ def plain(text: str) -> str:
     return SAME.get(word.lower(), word)
 
 
+def shown(unit: str) -> str:
+    """A unit as the rest of the program writes it."""
+    return "1/min" if unit == "rpm" else unit
+
+
 def is_known(text: str) -> bool:
     """Whether a cell of a head may be a unit; an empty one is none."""
     word = plain(text)
