@@ -56,7 +56,6 @@ def assert_orders(shaft: Mapping, *, shift: float = 0.0, mean: float = 812.7, lo
         assert off < loose * PHASE, (order, off)
 
 
-JITTER = TIME + 2e-4 * np.random.default_rng(3).uniform(-1.0, 1.0, len(TIME))
 DAMAGED = np.sort(TIME + 4e-4 * np.random.default_rng(4).uniform(-1.0, 1.0, len(TIME)))
 DAMAGED[0] = 0.0
 ABOVE = "Test bench 7;cell 3\nengine: idle, 812 rpm\n\n"
@@ -180,6 +179,30 @@ def test_the_speed_of_a_force_is_measured_from_it(tmp_path: Path) -> None:
     assert code == 0 and "25 whole cycles" in said
     frequency = float(re.search(r"frequency = (\S+)", said)[1])
     assert frequency * 120.0 == pytest.approx(812.7, rel=1e-5)
+
+
+def test_a_force_goes_into_a_load(tmp_path: Path, run, scene_text) -> None:
+    """The lines that are printed, in a scene of the paper's symbols."""
+    force = bench.series(bench.FORCE, ENGINE.angle(TIME)) + 20.0
+    bench.csv(
+        tmp_path / "f.csv", ("time_s", "n_rpm", "force_kN"), (TIME, SPEED, force / 1e3), digits=[".9g"] * 3
+    )
+    given = ("--signal", "force_kN", "--speed", "n_rpm", "--cycle-revolutions", 1, "--output", "cycle.csv")
+    code, said, complained = called_here("recording.py", "f.csv", *given, cwd=tmp_path)
+    assert code == 0, complained
+    lines = re.search(r"^&load\n(.*)^/", said, re.M | re.S)[1]
+    text = scene_text(load={"force_amplitude": None, "frequency": None})
+    (tmp_path / "scene.nml").write_text(text.replace("&load\n", f"&load\n{lines}"))
+    checked = run("--check", "scene.nml", cwd=tmp_path)
+    assert (checked.returncode, checked.stderr) == (0, ""), checked
+    load = f90nml.reads(checked.stdout)["load"]
+    assert load["frequency"] == pytest.approx(812.52 / 60.0, rel=1e-4)
+    assert load["force_orders"] == [1.0, 2.0, 3.0] and load["force_mean"] == pytest.approx(20.0, abs=0.1)
+    for found, phased, (amplitude, phase) in zip(
+        load["force_amplitudes"], load["force_phases"], bench.FORCE.values(), strict=True
+    ):
+        assert found == pytest.approx(amplitude, rel=AMPLITUDE)
+        assert abs(np.degrees(phased - phase)) < PHASE
 
 
 def test_drop_outs_of_a_wheel_are_bridged_up_to_a_length(tmp_path: Path) -> None:
