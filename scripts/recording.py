@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from rattle import command, table
-from rattle.recordings import channels, encoders, order_tracking
+from rattle.recordings import channels, cycle_command, encoders, order_tracking
 
 TASKS = {
     "list": "names, units, samples and ranges of the channels",
@@ -30,12 +30,14 @@ def main() -> int:
     for part in parts.values():
         part.set_defaults(parser=part)
     parts["list"].add_argument("files", nargs="+", type=Path, metavar="FILE", help="recordings")
+    parts["list"].add_argument("--rate", type=command.positive_number, metavar="HZ", help=channels.RATE)
+    cycle_command.add_arguments(parts["cycle"])
     order_tracking.add_arguments(parts["run-up"])
     encoders.add_arguments(parts["encoders"])
     if len(sys.argv) > 1 and sys.argv[1] not in TASKS and not sys.argv[1].startswith("-"):
         sys.argv.insert(1, "cycle")
     options = command.parse(parser)
-    runs = {"list": show, "run-up": order_tracking.run, "encoders": encoders.run}
+    runs = {"list": show, "cycle": cycle_command.run, "run-up": order_tracking.run, "encoders": encoders.run}
     return runs[options.task](options)
 
 
@@ -44,7 +46,7 @@ def show(options: argparse.Namespace) -> int:
     rows = [["", "channel", "unit", "samples", "from [s]", "to [s]", "least", "largest", "gaps"]]
     notes: list[str] = []
     for path in options.files:
-        for number, channel in enumerate(channels.read_channels(path, notes=notes), 1):
+        for number, channel in enumerate(channels.read_channels(path, rate=options.rate, notes=notes), 1):
             ends = [f"{channel.time[at]:.6g}" if channel.has_time else "-" for at in (0, -1)]
             finite = channel.values[np.isfinite(channel.values)]
             span = [f"{value:.6g}" for value in (finite.min(), finite.max())] if finite.size else ["-", "-"]

@@ -1,4 +1,4 @@
-"""From time to the angle of a shaft: by an angle channel, the pulses of a wheel, or a speed that is integrated."""
+"""From time to the angle of a shaft: by an angle channel, pulses of a wheel, or a speed that is integrated."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TURN = 2.0 * np.pi
 # A gap of a recording that is bridged unless more is allowed [s].
 BRIDGE = 0.01
 Kind = Literal["angle", "tacho", "speed"]
-# Degree of the splines through samples: smooth enough for orders up to a fifth of the samples of a turn.
+# Degree of the splines through samples.
 DEGREE = 5
 
 
@@ -25,8 +25,8 @@ DEGREE = 5
 class ShaftAngle:
     """The angle [rad] of a shaft at times [s]; both ascend strictly.
 
-    `error` [rad] is the estimated standard error of an angle, `notes` are sentences for the user. `marked`: the
-    angle 0 is a mark of the wheel (the tooth behind its gap), not where the recording begins.
+    `error` [rad] is the estimated standard error of an angle, `notes` are sentences for the user. `marked`:
+    the angle 0 is a mark of the wheel (the tooth behind its gap), not where the recording begins.
     """
 
     time: np.ndarray
@@ -74,27 +74,18 @@ def shaft_angle(
 ) -> ShaftAngle:
     """The angle of a shaft from a channel, by its unit if no `kind` is given.
 
-    `angle`: deg, rad or rev, rising or wrapped. `tacho`: pulses, of which `pulses_per_revolution` counts the missing
-    ones too: 60 with `missing_teeth` 2 for a wheel 60-2. `speed`: rpm, rad/s or Hz, integrated. Gaps are bridged up to
-    `bridge` [s] and refused beyond; `mend` takes spikes and drop-outs for gaps, which are refused otherwise if the
-    angle would not rise.
+    `angle`: deg, rad or rev, rising or wrapped. `tacho`: pulses; `pulses_per_revolution` counts the missing
+    ones too, 60 with `missing_teeth` 2 for a wheel 60-2. `speed`: rpm, rad/s or Hz, integrated. Gaps are
+    bridged up to `bridge` [s] and refused beyond; `mend` takes spikes and drop-outs for gaps.
     """
-    if not channel.has_time:
-        raise RecordingError(
-            f"{channel.source} has no times: give its sampling rate by --rate, or choose its column of time."
-        )
     kind = kind or kind_of(channel)
-    if np.sum(np.isfinite(channel.values)) < 4:
+    if not channel.has_time and kind != "angle":
         raise RecordingError(
-            f"{channel.source}: '{channel.name}' has {np.sum(np.isfinite(channel.values))} samples that are "
-            "numbers; an angle needs at least four."
+            f"{channel.source} has no column of time; give its sampling rate by --rate, in Hz."
         )
     if kind == "tacho":
         return _from_pulses(channel, pulses_per_revolution, missing_teeth, bridge)
-    notes: list[str] = []
-    if kind == "angle":
-        return _from_angle(channel, bridge, mend, notes)
-    return _from_speed(channel, bridge, mend, notes)
+    return (_from_angle if kind == "angle" else _from_speed)(channel, bridge, mend, [])
 
 
 def kind_of(channel: Channel) -> Kind:
@@ -104,40 +95,53 @@ def kind_of(channel: Channel) -> Kind:
     return "speed" if units.fits(channel.unit, "rad/s") else "tacho"
 
 
+def angles_of(channel: Channel, shaft: ShaftAngle) -> tuple[np.ndarray, np.ndarray]:
+    """Angle [rad] and value of each sample that stands within the angle of the shaft and is a number."""
+    angle = shaft.at(channel.time)
+    known = np.isfinite(angle) & np.isfinite(channel.values)
+    if np.sum(known) < 4:
+        raise RecordingError(
+            f"'{channel.name}' and the angle of the shaft have {np.sum(known)} samples of the same time; "
+            "they are of different recordings, or of different clocks."
+        )
+    angle, values = angle[known], channel.values[known]
+    if not np.all(np.diff(angle) > 0.0):
+        at = channel.time[known][int(np.argmin(np.diff(angle)))]
+        raise RecordingError(
+            f"{channel.source}: the angle of the shaft does not rise at {at:.6g} s; its tacho or angle jitters "
+            "by more than a sample."
+        )
+    return angle, values
+
+
 def resample_on_angle(
     channel: Channel, shaft: ShaftAngle, samples_per_revolution: int
 ) -> tuple[np.ndarray, np.ndarray, float]:
-    """The channel at equal angles [rad] where both are recorded, and the error [of its rms] of the interpolation.
+    """The channel at equal angles [rad], multiples of their step, and the error of the interpolation.
 
-    A spline of degree 5 runs through the samples; the error is the rms by which the spline through every second
-    sample is off at the samples between, divided by 32, as the samples are twice as dense, or more where noise is
-    what is seen.
+    A spline of degree 5 runs through the samples over their angle, so nothing is filtered: take at least as many
+    samples a revolution as the recording has. The error is the rms of `interpolation_error`.
     """
-    finite = np.isfinite(channel.values)
-    time, values = channel.time[finite], channel.values[finite]
-    inside = (time >= shaft.time[0]) & (time <= shaft.time[-1])
-    if np.sum(inside) < 4:
-        raise RecordingError(
-            f"'{channel.name}' and the angle of the shaft have {np.sum(inside)} samples of the same time; "
-            "they are of different recordings, or of different clocks."
-        )
+    angle, values = angles_of(channel, shaft)
     step = TURN / samples_per_revolution
-    begin, end = shaft.at([time[inside][0], time[inside][-1]])
-    angle = step * np.arange(np.ceil(begin / step - 1e-9), np.floor(end / step + 1e-9) + 1.0)
-    spline = interpolate.make_interp_spline(time, values, k=_degree(len(time)))
-    resampled = spline(np.clip(shaft.times(np.clip(angle, *shaft.angle[[0, -1]])), time[0], time[-1]))
-    return angle, resampled, interpolation_error(time, values)
+    first, last = np.ceil(angle[0] / step - 1e-9), np.floor(angle[-1] / step + 1e-9)
+    even = step * np.arange(first, last + 1.0)
+    spline = interpolate.make_interp_spline(angle, values, k=_degree(len(angle)))
+    return even, spline(np.clip(even, angle[0], angle[-1])), interpolation_error(angle, values)
 
 
-def interpolation_error(time: np.ndarray, values: np.ndarray) -> float:
-    """Error of a spline through samples, of the rms of what oscillates of them, seen from every second sample."""
+def interpolation_error(angle: np.ndarray, values: np.ndarray) -> float:
+    """Rms error of a spline through samples over the rms of what oscillates of them.
+
+    It is that of the spline through every second sample at those between, over 32: that is what twice the
+    samples gain of smooth signals. Noise, which no spline follows, is seen as it is.
+    """
     spread = float(np.std(values))
-    if len(values) < 16 or spread == 0.0:
+    if len(values) < 24 or spread == 0.0:
         return 0.0
-    coarse = interpolate.make_interp_spline(time[::2], values[::2], k=_degree(len(values[::2])))
+    coarse = interpolate.make_interp_spline(angle[::2], values[::2], k=_degree(len(values[::2])))
     between = slice(9, len(values) - 8 - len(values) % 2, 2)
-    off = coarse(time[between]) - values[between]
-    return float(np.sqrt(np.mean(off**2))) / spread / 2.0**DEGREE if off.size else 0.0
+    return float(np.sqrt(np.mean((coarse(angle[between]) - values[between]) ** 2))) / spread / 2.0**DEGREE
 
 
 def _degree(count: int) -> int:
@@ -161,60 +165,82 @@ def _checked(shaft: ShaftAngle, channel: Channel) -> ShaftAngle:
 
 
 def _from_angle(channel: Channel, bridge: float, mend: bool, notes: list[str]) -> ShaftAngle:
-    angle = channel.within("rad")
-    finite = np.isfinite(angle)
-    time, angle = channel.time[finite], angle[finite]
-    steps = np.diff(angle)
-    if np.median(steps) < 0.0:
+    finite = np.isfinite(channel.values)
+    time, angle = channel.time[finite], channel.within("rad")[finite]
+    if len(angle) < 4 or np.ptp(angle) == 0.0:
+        raise RecordingError(
+            f"{channel.source}: '{channel.name}' has {len(angle)} samples, all at {angle[:1]} rad; that is no "
+            "angle of a shaft that turns."
+        )
+    if np.median(np.sign(np.diff(angle))) < 0.0:
         notes.append(f"'{channel.name}' falls: the shaft is taken to turn the other way.")
-        angle, steps = -angle, -steps
-    back = steps[steps < -0.25 * TURN]
-    if back.size:
-        # An angle that wraps falls by its period less a step; a spike rises again as far.
-        period = TURN * max(1.0, round(float(np.median(-back)) / TURN))
-        notes.append(f"'{channel.name}' wraps at {np.degrees(period):.0f} deg.")
-        angle = np.unwrap(angle, period=period)
-    elif not np.any(steps != 0.0):
-        raise RecordingError(
-            f"{channel.source}: '{channel.name}' is constant at {angle[0]:.4g} rad; it is no angle."
-        )
-    trend = angle[0] + (angle[-1] - angle[0]) * (time - time[0]) / (time[-1] - time[0])
-    mended = mending.mend(
-        Channel(channel.name, "rad", time, angle - trend, channel.source), mend=mend, notes=notes, trend=trend
-    )
-    kept = np.isfinite(mended.values)
-    time, angle = time[kept], angle[kept]
-    mending.check_gaps(channel, kept_time=time, bridge=bridge, notes=notes)
+        angle = -angle
+    angle = _unwrapped(channel, time, angle, notes)
+    slope = (angle[-1] - angle[0]) / (time[-1] - time[0])
+    trend = angle[0] + slope * (time - time[0])
+    rest = Channel(channel.name, "rad", time, angle - trend, channel.source, channel.has_time)
     # Of an angle that stands for some samples, as counted pulses do, the first of each stand is known.
-    rises = np.concatenate(([True], np.diff(np.maximum.accumulate(angle)) > 0.0))
-    quantum = float(np.median(np.diff(angle[rises])))
-    stands = np.mean(~rises) > 0.2
-    if not stands and np.any(np.diff(angle) <= 0.0):
-        at = int(np.argmax(np.diff(angle) <= 0.0))
-        raise RecordingError(
-            f"{channel.source}: the angle of '{channel.name}' goes back at {time[at + 1]:.6g} s, from "
-            f"{np.degrees(angle[at]):.5g} to {np.degrees(angle[at + 1]):.5g} deg; --mend replaces spikes and drop-outs."
+    stands = np.mean(np.diff(angle) == 0.0) > 0.2
+    if not stands:
+        rest = mending.mended(rest, mend=mend, notes=notes, trend=trend)
+        if channel.has_time:
+            rest = mending.bridged(rest, limit=bridge, notes=notes)
+        kept = np.isfinite(rest.values)
+        time = rest.time[kept]
+        angle = rest.values[kept] + angle[0] + slope * (time - finite_time(channel))
+    else:
+        rises = np.concatenate(([True], np.diff(np.maximum.accumulate(angle)) > 0.0))
+        time, angle = time[rises], angle[rises]
+        notes.append(
+            f"'{channel.name}' is known in steps of {np.degrees(np.median(np.diff(angle))):.3g} deg."
         )
-    time, angle = time[rises], angle[rises]
-    error = quantum / np.sqrt(12.0) if stands else _roughness(time, angle)
-    return _checked(ShaftAngle(time, angle, notes, error), channel)
+    if np.any(np.diff(angle) <= 0.0):
+        at = int(np.argmax(np.diff(angle) <= 0.0))
+        where = f"at {time[at + 1]:.6g} s" if channel.has_time else f"at sample {at + 2}"
+        raise RecordingError(
+            f"{channel.source}: the angle of '{channel.name}' goes back {where}, from "
+            f"{np.degrees(angle[at]):.6g} to {np.degrees(angle[at + 1]):.6g} deg; --mend replaces spikes and "
+            "drop-outs."
+        )
+    error = np.median(np.diff(angle)) / np.sqrt(12.0) if stands else _roughness(time, angle)
+    return _checked(ShaftAngle(time, angle, notes, float(error)), channel)
+
+
+def finite_time(channel: Channel) -> float:
+    """Time of the first sample that is a number [s]."""
+    return float(channel.time[np.isfinite(channel.values)][0])
+
+
+def _unwrapped(channel: Channel, time: np.ndarray, angle: np.ndarray, notes: list[str]) -> np.ndarray:
+    """An angle that rises on where it falls by a whole number of turns."""
+    steps = np.diff(angle)
+    back = -steps[steps < -0.25 * TURN]
+    if not back.size:
+        return angle
+    period = TURN * max(1.0, round(float(np.median(back)) / TURN))
+    if np.ptp(angle) > 1.01 * period:
+        return angle
+    notes.append(f"'{channel.name}' wraps at {np.degrees(period):.0f} deg.")
+    spans = np.diff(time)
+    expected = float(np.median(steps / spans)) * spans
+    turns = np.round((expected - steps) / period)
+    return angle + period * np.concatenate(([0.0], np.cumsum(turns)))
 
 
 def _from_speed(channel: Channel, bridge: float, mend: bool, notes: list[str]) -> ShaftAngle:
-    speed = Channel(channel.name, "rad/s", channel.time, channel.within("rad/s"), channel.source)
-    speed = mending.mend(speed, mend=mend, notes=notes)
-    finite = np.isfinite(speed.values)
-    time, values = speed.time[finite], speed.values[finite]
+    own = Channel(channel.name, channel.unit, channel.time, channel.values, channel.source)
+    own = mending.mended(own, mend=mend, notes=notes)
+    own = mending.bridged(own, limit=bridge, notes=notes)
+    time, values = own.time, own.within("rad/s")
     if np.mean(values) < 0.0:
         notes.append(f"'{channel.name}' is negative: the shaft is taken to turn the other way.")
         values = -values
     if not np.all(values > 0.0):
-        at = time[int(np.argmin(values))]
+        at = int(np.argmin(values))
         raise RecordingError(
-            f"{channel.source}: '{channel.name}' is {values.min() * 60 / TURN:.4g} 1/min at {at:.6g} s; an angle "
-            "needs a speed above zero; cut the record, or --mend replaces spikes and drop-outs."
+            f"{channel.source}: '{channel.name}' is {own.values[at]:.4g} {channel.unit} at {time[at]:.6g} s; an "
+            "angle needs a speed that keeps its sign; cut the recording, or let --mend replace drop-outs."
         )
-    mending.check_gaps(channel, kept_time=time, bridge=bridge, notes=notes)
     spline = interpolate.make_interp_spline(time, values, k=_degree(len(time)))
     angle = spline.antiderivative()(time)
     angle -= angle[0]
@@ -366,11 +392,12 @@ def _tell_dropped(
 
 
 def _roughness(time: np.ndarray, angle: np.ndarray) -> float:
-    """Standard deviation of the angle [rad] that is not smooth: the fourth difference of white noise is sqrt(70) of it."""
-    if len(time) < 8:
+    """Standard deviation [rad] of what a spline through every second point misses, as jitter is."""
+    if len(time) < 24:
         return 0.0
     spline = interpolate.make_interp_spline(angle[::2], time[::2], k=3)
-    inner = slice(3, len(angle) - 3 - len(angle) % 2, 2)
+    inner = slice(9, len(angle) - 8 - len(angle) % 2, 2)
     off = spline(angle[inner]) - time[inner]
     speed = (angle[-1] - angle[0]) / (time[-1] - time[0])
-    return 1.4826 * float(np.median(np.abs(off))) * speed / 1.2 if off.size else 0.0
+    # The spline has 0.7 of the variance of its points between them.
+    return 1.4826 * float(np.median(np.abs(off))) * speed / np.sqrt(1.7)

@@ -45,6 +45,8 @@ READERS: dict[str, Callable[[Path, list[str]], list[Raw]]] = {
     "text": text_file.read_text,
 }
 LEAST_SAMPLES = 2
+# What the option says that stands for times.
+RATE = "samples a second of a file without times"
 
 
 @dataclass(frozen=True)

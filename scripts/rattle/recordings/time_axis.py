@@ -98,6 +98,8 @@ def _uniform(time: np.ndarray, source: str, notes: list[str]) -> np.ndarray:
                 "they are taken as they stand.",
             )
         return time
+    if off < 1e-6 * slope:
+        return time
     if off > 1e-3 * slope:
         _note(
             notes,
