@@ -172,7 +172,10 @@ def _flanks(
     start = np.linalg.lstsq(matrix, seen / scale, rcond=None)[0]
     rough = 1.4826 * float(np.median(np.abs(matrix @ start - seen / scale))) + 1e-9
     found = optimize.least_squares(
-        lambda numbers: (matrix @ numbers - seen / scale) / rough, start, jac=lambda _: matrix / rough, loss="soft_l1"
+        lambda numbers: (matrix @ numbers - seen / scale) / rough,
+        start,
+        jac=lambda _: matrix / rough,
+        loss="soft_l1",
     ).x
     rest = seen - scale * (matrix @ found)
     freedom = len(samples) - np.linalg.matrix_rank(matrix)
@@ -183,7 +186,10 @@ def _flanks(
     scatter = math.sqrt(heavier * sum(float(np.var(part)) for part in parts))
     play = Estimate(value, value - error, value + error, scatter, min(map(len, parts)))
     drift = scale * np.concatenate(
-        [design(part) @ found[1:] for part in np.array_split(np.arange(len(motion.gap)), len(motion.gap) // 20000 + 1)]
+        [
+            design(part) @ found[1:]
+            for part in np.array_split(np.arange(len(motion.gap)), len(motion.gap) // 20000 + 1)
+        ]
     )
     low = float(np.mean(drift))
     return drift - low, low, play
@@ -196,7 +202,8 @@ def _contacts(
     height, raw = ((values - drift - low) / play for values in (smooth, motion.gap))
     sides = ((height, raw), (1.0 - height, 1.0 - raw))
     found = (
-        [_contact(own, exact, at, motion.step) for at in _arrivals(own, edges[0], edges[-1])] for own, exact in sides
+        [_contact(own, exact, at, motion.step) for at in _arrivals(own, edges[0], edges[-1])]
+        for own, exact in sides
     )
     drives, coasts = ([contact for contact in some if contact is not None] for some in found)
     return drives, coasts

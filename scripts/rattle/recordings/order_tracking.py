@@ -11,8 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from rattle import command, outputs, table
-from rattle.recordings import angle, channels, units
-from rattle.recordings.channels import Channel
+from rattle.recordings import mending, options, units
+from rattle.recordings.angle import ShaftAngle
+from rattle.recordings.channels import Channel, choose
 from rattle.recordings.faults import RecordingError
 from rattle.recordings.order_windows import Course, longest_run, mean_course, track, waterfall
 
@@ -41,8 +42,8 @@ class Waterfall:
 class RunUp:
     """Complex amplitudes A exp(i phase) over speed [1/min] (rows) and order (columns).
 
-    The order O is A cos(O theta + phase) of the mean angle theta of the shaft. `errors` are standard errors of
-    the amplitudes, `powers` shares of the power of all orders that stand out.
+    The order O is A cos(O theta + phase) of the mean angle theta of the shaft. `errors` are standard errors
+    of the amplitudes, `powers` shares of the power of all orders that stand out.
     """
 
     speeds: np.ndarray
@@ -93,7 +94,7 @@ def track_run_up(
     top = RESOLVED * math.pi / (float(np.median(np.diff(time))) * float(np.max(course.speed)))
     if orders and max(orders) > top:
         raise RecordingError(
-            f"order {max(orders):g} is beyond what the samples show at the highest speed; the largest is {top:.3g}."
+            f"order {max(orders):g} is beyond what the samples show at the highest speed; {top:.3g} is not."
         )
     if highest > top:
         notes.append(
@@ -183,22 +184,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The options of `recording.py run-up`."""
     parser.description = (
         "Track the orders of a run-up (or run-down) over the speed of the shaft. Writes the table that &shaft "
-        "table takes, of a signal in m/s2 the order cuts that plot.py orders --measured takes, and beside it "
-        "NAME.waterfall.csv, which plot.py waterfall draws."
+        "table takes, of a signal in m/s2 the order cuts for plot.py orders --measured, and beside it "
+        "NAME.waterfall.csv for plot.py waterfall."
     )
-    parser.add_argument("file", type=Path, metavar="FILE", help="recording of one run-up")
+    options.add_recording(parser)
     parser.add_argument(
-        "--shaft",
-        required=True,
-        metavar="CHANNEL",
-        help="angle, tacho or speed of the shaft, by name or number",
+        "--signal",
+        metavar="NAME",
+        help="channel whose orders are tracked; absent: the motion of the shaft itself",
     )
-    parser.add_argument(
-        "--channel",
-        metavar="CHANNEL",
-        help="signal whose orders are tracked; by default the motion of --shaft itself",
-    )
-    angle_options(parser)
+    options.add_shaft(parser)
     parser.add_argument(
         "--orders",
         type=order_list,
@@ -244,88 +239,59 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     outputs.add_option(parser)
 
 
-def angle_options(parser: argparse.ArgumentParser) -> None:
-    """How a file is read and the angle of its shaft found."""
-    parser.add_argument(
-        "--unit",
-        action="append",
-        default=[],
-        metavar="CHANNEL=UNIT",
-        help="unit that a file lacks; repeatable",
-    )
-    parser.add_argument(
-        "--rate", type=command.positive_number, metavar="HZ", help="samples a second, without times"
-    )
-    parser.add_argument(
-        "--pulses", type=command.positive, default=1, metavar="N", help="teeth of a tacho wheel (1)"
-    )
-    parser.add_argument(
-        "--missing", type=int, default=0, metavar="N", help="teeth that it lacks, 2 of a wheel 60-2"
-    )
-    parser.add_argument(
-        "--bridge",
-        type=command.positive_number,
-        default=angle.BRIDGE,
-        metavar="S",
-        help="longest gap that is bridged",
-    )
-    parser.add_argument("--mend", action="store_true", help="take spikes and drop-outs for gaps")
-
-
 def order_list(text: str) -> list[float]:
     """Orders between commas."""
     return [command.positive_number(part) for part in command.names(text)]
 
 
-def run(options: argparse.Namespace) -> int:
+def run(arguments: argparse.Namespace) -> int:
     """Do what `recording.py run-up` does; returns its exit code."""
-    beside = options.output.with_suffix(".waterfall.csv")
-    outputs.check([options.output, beside], overwrite=options.overwrite, inputs=[options.file])
+    beside = arguments.output.with_suffix(".waterfall.csv")
+    outputs.check([arguments.output, beside], overwrite=arguments.overwrite, inputs=arguments.files)
     notes: list[str] = []
-    read = channels.read_channels(options.file, rate=options.rate, notes=notes)
-    read = channels.with_units(read, dict(_pair(text) for text in options.unit))
-    shaft_channel = channels.choose(read, options.shaft)
-    shaft = angle.shaft_angle(
-        shaft_channel,
-        pulses_per_revolution=options.pulses,
-        missing_teeth=options.missing,
-        bridge=options.bridge,
-        mend=options.mend,
-    )
+    recorded = options.read(arguments, notes)
+    reference = options.reference_name(arguments)
+    if reference is None:
+        raise RecordingError("a run-up needs the channel that tells the angle: --angle, --tacho or --speed.")
+    shaft_channel = choose(recorded, reference)
+    shaft = options.angle_of(arguments, shaft_channel)
     notes += shaft.notes
-    signal = channels.choose(read, options.channel) if options.channel else own_motion(shaft_channel, shaft)
+    if arguments.signal:
+        signal = mending.mended(choose(recorded, arguments.signal), mend=arguments.mend, notes=notes)
+    else:
+        signal = own_motion(shaft_channel, shaft, is_speed=arguments.speed is not None)
     unit = signal_unit(signal)
     found = track_run_up(
         signal.time,
         signal.within(unit),
         DERIVATIVES[unit],
         (shaft.time, shaft.angle),
-        orders=options.orders,
-        dropped=options.drop,
-        highest=options.highest,
-        step=options.step,
-        cycle_revolutions=options.cycle_revolutions,
-        tones=options.tone,
+        orders=arguments.orders,
+        dropped=arguments.drop,
+        highest=arguments.highest,
+        step=arguments.step,
+        cycle_revolutions=arguments.cycle_revolutions,
+        tones=arguments.tone,
     )
     if not shaft.marked:
-        notes.append(
-            "The phases count from where the recording begins; a mark of the wheel would give them a place."
-        )
-    origin = f"{signal.name} of {options.file.name} over the angle of {shaft_channel.name}"
+        notes.append("The phases count from where the recording begins, not from a mark of a wheel.")
+    origin = f"{signal.name} of {arguments.files[0].name} over the angle of {shaft_channel.name}"
     files = [
-        (options.output, outputs.text_writer(table_text(found, unit, origin))),
+        (arguments.output, outputs.text_writer(table_text(found, unit, origin))),
         (beside, outputs.text_writer(waterfall_text(found, unit, origin))),
     ]
-    written = outputs.write(files, overwrite=options.overwrite, inputs=[options.file])
+    written = outputs.write(files, overwrite=arguments.overwrite, inputs=arguments.files)
     print(table.plain(cells(found, unit)))
-    print(*notes, *found.notes, *doubts(found), sep="\n")
+    print(*dict.fromkeys([*notes, *found.notes]), *doubts(found), sep="\n")
     print(*written, sep="\n")
+    if drawn_unit(unit) == "rad/s2":
+        print(f"For the input: &shaft table = '{arguments.output.name}' /")
     return command.COMPLETE
 
 
-def own_motion(channel: Channel, shaft: angle.ShaftAngle) -> Channel:
+def own_motion(channel: Channel, shaft: ShaftAngle, *, is_speed: bool) -> Channel:
     """What the shaft itself does: its speed where that was recorded, else its angle."""
-    if angle.kind_of(channel) == "speed":
+    if is_speed:
         return channel
     return Channel(channel.name, "rad", shaft.time, shaft.angle, channel.source)
 
@@ -341,13 +307,6 @@ def signal_unit(channel: Channel) -> str:
         f"'{channel.name}' is in {channel.unit}; a run-up takes an angle, a speed or an acceleration of the "
         "shaft, or an acceleration in m/s2."
     )
-
-
-def _pair(text: str) -> tuple[str, str]:
-    name, equals, unit = text.rpartition("=")
-    if not equals:
-        raise RecordingError(f"--unit '{text}' is not CHANNEL=UNIT.")
-    return name, unit
 
 
 def drawn_unit(unit: str) -> str:
@@ -409,7 +368,7 @@ def doubts(found: RunUp) -> list[str]:
         if np.any(shares > UNCERTAIN):
             notes.append(
                 f"Order {order:g} is known to {np.max(shares):.1%} only at "
-                f"{found.speeds[np.argmax(shares)]:.6g} 1/min: a slower run-up or a larger --step averages more."
+                f"{found.speeds[np.argmax(shares)]:.6g} 1/min; a slower run-up or a larger --step averages more."
             )
         # Lines of amplitude and phase between rows twice as far apart are off four times as much.
         size, turn = np.abs(own), np.angle(own[2:] / own[:-2])

@@ -17,6 +17,7 @@ from scipy import optimize
 from rattle.recordings.faults import RecordingError
 
 GRID = 32  # points a revolution of the mean angle
+LEAST_CYCLES = 5
 REVERSAL = 0.1  # share of the range of speeds by which it may fall back within a run-up
 ERROR_SOUGHT = 5e-3  # of an amplitude; windows widen until it is reached, or until they reach the next rows
 WATERFALL_ROWS = 80
@@ -50,9 +51,10 @@ def mean_course(time: np.ndarray, angle: np.ndarray, cycle_revolutions: int) -> 
     """
     count, step = GRID * cycle_revolutions, 2.0 * math.pi / GRID
     grid = np.arange(math.ceil(angle[0] / step), math.floor(angle[-1] / step) + 1) * step
-    if len(grid) < 8 * count:
+    if len(grid) < LEAST_CYCLES * count:
         raise RecordingError(
-            f"the shaft turns {len(grid) / GRID:.1f} times; a run-up takes {8 * cycle_revolutions} at least."
+            f"the shaft turns {len(grid) / GRID:.1f} times; a mean takes "
+            f"{LEAST_CYCLES * cycle_revolutions} turns at least."
         )
     mean = np.convolve(np.ones(count), np.ones(count)) / count**2
     kernel = -np.convolve(mean, mean)
