@@ -17,7 +17,7 @@ _DERIVED = re.compile(r"^! derived: (\S+) = (.*?)(?: [^\d\s]\S*)*$")
 
 
 def derived(input: Input, *, gear: str | None = None, set: Mapping[str, Any] | None = None) -> dict[str, str]:
-    """Keys of an input as 'group.key' with their values as --check writes them, and what it derives from them.
+    """Keys of an input as 'group.key' with their values as --check writes them, and what it derives.
 
     Raises InputError for bad input, CommandError for a gear that there is not.
     """

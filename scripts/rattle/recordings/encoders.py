@@ -23,10 +23,10 @@ from rattle.recordings.order_windows import fit_window, mean_course
 
 FORM = "rattle encoders 1"
 RATIO = 1e-3  # by which the speeds of the gears may differ from what their base radii say
-SLIPPED = 0.5  # of the motion in a period: more drift is no drift
 HIGHEST = 16.0  # order of the driver that is looked for
 STANDING_OUT = 5.0  # standard errors
 LEAST_SHARE = 0.01  # of the strongest order
+PARTS = ("value", "low", "high", "scatter")
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Geometry:
 
 @dataclass(frozen=True)
 class Shaft:
-    """Mean speed [1/min] and orders of the driver: A cos(order theta + phase) is its acceleration [rad/s2]."""
+    """Mean speed [1/min] and orders of the driver: A cos(order theta + phase) is its acceleration."""
 
     speed_rpm: float
     orders: tuple[float, ...]
@@ -68,7 +68,7 @@ def relative_motion(
     if abs(ratio / expected - 1.0) > RATIO:
         swapped = abs(ratio * expected - 1.0) <= RATIO
         raise RecordingError(
-            f"the loose gear turns {ratio:.6g} times for each turn of the driver, by the base radii {expected:.6g}: "
+            f"the loose gear turns {ratio:.6g} times a turn of the driver, by base radii {expected:.6g}: "
             + ("the encoders are swapped." if swapped else "check the radii, the channels and their units.")
         )
     along = math.cos(geometry.helix)
@@ -120,9 +120,9 @@ def _orders(time: np.ndarray, angle: np.ndarray, period_order: float) -> Shaft:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The options of `recording.py encoders`."""
     parser.description = (
-        "From the angles of driver and loose gear at a steady speed: their relative motion along the line of action, "
-        "the backlash, impacts a period by flank, approach velocities, restitution, and drag over inertia of the "
-        "loose gear. The file that is written is what calibrate.py takes."
+        "From the angles of driver and loose gear at a steady speed: backlash, impacts a period by flank, "
+        "approach velocities and restitution along the line of action, and drag over inertia of the loose "
+        "gear. The file that is written is what calibrate.py takes."
     )
     options.add_recording(parser)
     parser.add_argument(
@@ -203,8 +203,8 @@ def run(arguments: argparse.Namespace) -> int:
 def _encoder(channel: Channel, lines: int | None, arguments: argparse.Namespace) -> ShaftAngle:
     if lines is None and kind_of(channel) == "tacho":
         raise RecordingError(
-            f"'{channel.name}' has no unit of an angle: give it by --unit '{channel.name}=deg', or the lines a "
-            "revolution of pulses by --lines."
+            f"'{channel.name}' has no unit of an angle: give it by --unit '{channel.name}=deg', or the lines "
+            "a revolution of pulses by --lines."
         )
     return shaft_angle(
         channel,
@@ -220,26 +220,27 @@ def _pair(arguments: argparse.Namespace) -> tuple[Geometry, float]:
     if (arguments.input is None) == (arguments.base_radii is None):
         raise RecordingError("give either --input FILE.nml with the pair, or --base-radii R1,R2.")
     if arguments.base_radii is not None:
-        return Geometry(
-            *arguments.base_radii, math.radians(arguments.base_helix_deg)
-        ), arguments.period_order or 1.0
+        helix = math.radians(arguments.base_helix_deg)
+        return Geometry(*arguments.base_radii, helix), arguments.period_order or 1.0
     try:
-        numbers = derived(arguments.input, gear=arguments.gear)
+        found = derived(arguments.input, gear=arguments.gear)
     except RunError as fault:
         raise RecordingError(f"{fault}") from None
-    if "gear.base_radius_1" not in numbers:
+    if "gear.base_radius_1" not in found:
         raise RecordingError(
             f"{arguments.input} has no &gear, whose base radii are needed; give --base-radii."
         )
-    order = arguments.period_order or 60.0 * numbers["load.frequency"] / numbers["shaft.speed_rpm"]
-    helix = math.radians(numbers["gear.base_helix_angle"])
-    return Geometry(numbers["gear.base_radius_1"], numbers["gear.base_radius_2"], helix), order
+    order = arguments.period_order or 60.0 * float(found["load.frequency"]) / float(found["shaft.speed_rpm"])
+    driver, loose, helix = (
+        float(found[f"gear.base_{name}"]) for name in ("radius_1", "radius_2", "helix_angle")
+    )
+    return Geometry(driver, loose, math.radians(helix)), order
 
 
 def as_dict(
     found: Flights, shaft: Shaft, geometry: Geometry, period_order: float, temperature: float | None
 ) -> dict[str, Any]:
-    """What is written, in SI units: estimates with `value`, interval `low` to `high`, `scatter` and `count`."""
+    """What is written, in SI units: estimates with value, interval low to high, scatter and count."""
     lever = geometry.loose * math.cos(geometry.helix)
     flown = found.deceleration
     told = {
@@ -281,9 +282,7 @@ def cells(told: dict[str, Any]) -> list[list[str]]:
         if own is None:
             rows.append([words, "unknown", "", "", ""])
             continue
-        value, low, high, scatter = (
-            f"{scale * own[part]:.4g}" for part in ("value", "low", "high", "scatter")
-        )
+        value, low, high, scatter = (f"{scale * own[part]:.4g}" for part in PARTS)
         rows.append([words, value, f"{low} to {high}", scatter, f"{own['count']}"])
     for side in ("drive", "coast"):
         rows.append(
@@ -296,14 +295,12 @@ def words(found: Flights, shaft: Shaft, period_order: float) -> list[str]:
     """What the user should know of the numbers."""
     orders = ", ".join(f"{order:g}" for order in shaft.orders)
     told = [
-        f"{found.periods} periods of order {period_order:g} at {shaft.speed_rpm:.5g} 1/min; the driver has the orders "
-        f"{orders}.",
-        f"A drift of {found.drift * 1e6:.3g} um was taken off; the encoders have a noise of {found.noise * 1e6:.3g} um.",
+        f"{found.periods} periods of order {period_order:g} at {shaft.speed_rpm:.5g} 1/min; the driver has "
+        f"order{'s' if len(shaft.orders) > 1 else ''} {orders}.",
+        f"A drift of {found.drift * 1e6:.3g} um was taken off; samples have a noise of {found.noise * 1e6:.3g} um.",
     ]
     if found.is_double_sided:
-        told.append(
-            "The backlash is larger by what the oil films keep the flanks apart at contact, which no encoder sees."
-        )
+        told.append("The backlash is larger by the oil films at contact, which no encoder sees.")
     else:
         told.append("There are no impacts on both flanks: the backlash is larger than the range of the gap.")
     if found.deceleration is None:

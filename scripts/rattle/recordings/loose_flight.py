@@ -1,4 +1,4 @@
-"""What the motion of a loose gear in its backlash shows: its play, its impacts by flank, its flights between them."""
+"""What the motion of a loose gear in its backlash shows: play, impacts by flank, flights between them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from rattle.recordings.faults import RecordingError
 AWAY, NEAR = 0.25, 0.12
 FLIGHT = (0.25, 0.75)  # where a gear flies, far from both films
 APPROACH = (0.05, 0.35)  # before a flank, where the approach velocity is fitted
-HIT = 0.4  # of the velocity at which a tooth comes near: one that has less at the flank turned without a contact
+HIT = 0.4  # of the velocity at which a tooth comes near: with less it turns without a contact
 SETTLED, REBOUND = 2.0e-4, 1.5e-3  # s behind a contact: between them its rebound is fitted
 SMOOTH = 0.01  # of a period: largest window of smoothing
 NOISE_SOUGHT = 0.005  # of the play, after smoothing
@@ -49,10 +49,10 @@ class Flank:
 
 @dataclass(frozen=True)
 class Flights:
-    """What was seen: `play` [m] between the positions at contact, `deceleration` [m/s2] of the gear in flight.
+    """What was seen: `play` [m] between contacts, `deceleration` [m/s2] of the gear in flight.
 
-    Without impacts on both flanks `play` is the range of the positions, and the backlash is more. `drift` [m] is
-    what was taken off the positions, `noise` [m] the standard deviation of a sample.
+    Without impacts on both flanks `play` is the range of the positions, and the backlash is more. `drift` [m]
+    was taken off the positions, `noise` [m] is the standard deviation of a sample.
     """
 
     periods: int
@@ -69,9 +69,9 @@ class Flights:
 class Motion:
     """Positions along the line of action [m] at equal times, `step` [s] apart; the drive flank lies below.
 
-    `gap` is that of the gear before the drive flank but for an unknown drift, `gear` the way of the loose gear
-    itself, `period` counts the periods of the force with their parts. `turning` are angles [rad] of both shafts,
-    with which encoders that are mounted off their axes err.
+    `gap` is that of the gear before the drive flank but for an unknown drift, `gear` the way of the loose
+    gear itself, `period` counts the periods of the force with their parts. `turning` are angles [rad] of shafts,
+    with which encoders mounted off their axes err.
     """
 
     step: float
@@ -83,7 +83,7 @@ class Motion:
 
 @dataclass(frozen=True)
 class Contact:
-    """A contact of a tooth with a flank; heights are shares of the play above the flank, velocities those a second."""
+    """A contact of a tooth with a flank: height in shares of the play, velocities in such shares a second."""
 
     sample: int
     height: float
@@ -97,7 +97,7 @@ def look(motion: Motion) -> Flights:
     count = last - first
     if count < LEAST_PERIODS:
         raise RecordingError(
-            f"the recording has {max(count, 0)} whole periods of the force; it takes {LEAST_PERIODS} at least."
+            f"the recording has {max(count, 0)} whole periods of the force; {LEAST_PERIODS} is the least."
         )
     edges = np.searchsorted(motion.period, np.arange(first, last + 1))
     noise = float(np.std(np.diff(motion.gap, 4))) / math.sqrt(70.0)
@@ -107,7 +107,7 @@ def look(motion: Motion) -> Flights:
     drift, low, play = _flanks(motion, lowest, smooth[lowest], highest, smooth[highest])
     if not play.value > 4.0 * noise / math.sqrt(window):
         raise RecordingError(
-            f"the relative motion of {play.value * 1e6:.3g} um does not stand out of the noise of the encoders, "
+            f"the relative motion of {play.value * 1e6:.3g} um does not stand out of the encoders' noise, "
             f"{noise * 1e6:.3g} um."
         )
     drives, coasts = _contacts(motion, smooth, drift, low, play.value, edges)
@@ -218,7 +218,7 @@ def _arrivals(height: np.ndarray, first: int, last: int) -> np.ndarray:
 
 
 def _contact(height: np.ndarray, raw: np.ndarray, at: int, step: float) -> Contact | None:
-    """The contact behind an arrival near a flank, by parabolas before and behind it; None: it turns without one."""
+    """The contact behind an arrival near a flank, by parabolas before and behind it; None: there is none."""
     reach = max(LEAST_SAMPLES, int(2.0 * REBOUND / step))
     floor = float(np.min(height[at : at + reach]))
     near = height[: at + reach] - floor

@@ -183,8 +183,8 @@ def _words(orders: Sequence[float]) -> str:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The options of `recording.py run-up`."""
     parser.description = (
-        "Track the orders of a run-up (or run-down) over the speed of the shaft. Writes the table that &shaft "
-        "table takes, of a signal in m/s2 the order cuts for plot.py orders --measured, and beside it "
+        "Track the orders of a run-up (or run-down) over the speed of the shaft. Writes the table that "
+        "&shaft table takes, of a signal in m/s2 the order cuts for plot.py orders --measured, and beside it "
         "NAME.waterfall.csv for plot.py waterfall."
     )
     options.add_recording(parser)
@@ -368,7 +368,7 @@ def doubts(found: RunUp) -> list[str]:
         if np.any(shares > UNCERTAIN):
             notes.append(
                 f"Order {order:g} is known to {np.max(shares):.1%} only at "
-                f"{found.speeds[np.argmax(shares)]:.6g} 1/min; a slower run-up or a larger --step averages more."
+                f"{found.speeds[np.argmax(shares)]:.6g} 1/min; a slower run-up or larger --step averages more."
             )
         # Lines of amplitude and phase between rows twice as far apart are off four times as much.
         size, turn = np.abs(own), np.angle(own[2:] / own[:-2])
@@ -378,8 +378,8 @@ def doubts(found: RunUp) -> list[str]:
         )
         if off.size and np.max(off) > UNCERTAIN * np.max(size):
             notes.append(
-                f"Order {order:g} bends between the rows at {found.speeds[1 + np.argmax(off)]:.6g} 1/min, where the "
-                f"line between them is off by about {np.max(off) / np.max(size):.1%} of its largest amplitude: "
+                f"Order {order:g} bends between the rows at {found.speeds[1 + np.argmax(off)]:.6g} 1/min: the "
+                f"line between them is off by about {np.max(off) / np.max(size):.1%} of its largest amplitude; "
                 "take a smaller --step."
             )
     return notes

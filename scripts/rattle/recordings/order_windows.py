@@ -26,7 +26,7 @@ DEGREE = 2
 
 @dataclass(frozen=True)
 class Course:
-    """The mean angle [rad] of a shaft over time [s], without its oscillation in a cycle; its speed [rad/s]."""
+    """Mean angle [rad] of a shaft over time [s], without its oscillation in a cycle; its speed [rad/s]."""
 
     time: np.ndarray
     angle: np.ndarray
@@ -110,8 +110,8 @@ def fit_window(
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """Complex amplitudes of orders at an angle [rad] and their standard errors, from samples near it.
 
-    Samples up to `half` [rad] from it count, whose mean angle is `phase` [rad]; `tones` are phases [rad] of what
-    else oscillates. None: too few samples for a fit.
+    Samples up to `half` [rad] from it count, whose mean angle is `phase` [rad]; `tones` are phases [rad] of
+    what else oscillates. None: too few samples for a fit.
     """
     part = slice(*np.searchsorted(phase, [centre - half, centre + half]))
     place = (phase[part] - centre) / half
