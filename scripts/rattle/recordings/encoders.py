@@ -297,7 +297,7 @@ def words(found: Flights, shaft: Shaft, period_order: float) -> list[str]:
     told = [
         f"{found.periods} periods of order {period_order:g} at {shaft.speed_rpm:.5g} 1/min; the driver has "
         f"order{'s' if len(shaft.orders) > 1 else ''} {orders}.",
-        f"A drift of {found.drift * 1e6:.3g} um was taken off; samples have a noise of {found.noise * 1e6:.3g} um.",
+        f"A drift of {found.drift * 1e6:.3g} um was taken off; the noise is {found.noise * 1e6:.3g} um.",
     ]
     if found.is_double_sided:
         told.append("The backlash is larger by the oil films at contact, which no encoder sees.")

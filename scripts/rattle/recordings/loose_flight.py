@@ -70,8 +70,8 @@ class Motion:
     """Positions along the line of action [m] at equal times, `step` [s] apart; the drive flank lies below.
 
     `gap` is that of the gear before the drive flank but for an unknown drift, `gear` the way of the loose
-    gear itself, `period` counts the periods of the force with their parts. `turning` are angles [rad] of shafts,
-    with which encoders mounted off their axes err.
+    gear itself, `period` counts the periods of the force with their parts. `turning` are angles [rad] of
+    shafts, with which encoders mounted off their axes err.
     """
 
     step: float

@@ -368,7 +368,7 @@ def doubts(found: RunUp) -> list[str]:
         if np.any(shares > UNCERTAIN):
             notes.append(
                 f"Order {order:g} is known to {np.max(shares):.1%} only at "
-                f"{found.speeds[np.argmax(shares)]:.6g} 1/min; a slower run-up or larger --step averages more."
+                f"{found.speeds[np.argmax(shares)]:.6g} 1/min; a slower run-up or larger --step helps."
             )
         # Lines of amplitude and phase between rows twice as far apart are off four times as much.
         size, turn = np.abs(own), np.angle(own[2:] / own[:-2])
@@ -378,8 +378,8 @@ def doubts(found: RunUp) -> list[str]:
         )
         if off.size and np.max(off) > UNCERTAIN * np.max(size):
             notes.append(
-                f"Order {order:g} bends between the rows at {found.speeds[1 + np.argmax(off)]:.6g} 1/min: the "
-                f"line between them is off by about {np.max(off) / np.max(size):.1%} of its largest amplitude; "
+                f"Order {order:g} bends between the rows at {found.speeds[1 + np.argmax(off)]:.6g} 1/min: "
+                f"the line between is off by about {np.max(off) / np.max(size):.1%} of the largest amplitude; "
                 "take a smaller --step."
             )
     return notes
