@@ -1,7 +1,7 @@
 """Fits backlash and drag, or inertia, of a loose gear to what two encoders show (recording.py encoders).
 
-The program solves the motion under the shaft that was measured, and what reads the encoders reads that, too: so
-the oil films, which no encoder sees, count on both sides.
+The program solves the motion under the shaft that was measured, and what reads the encoders reads that, too:
+so the oil films, which no encoder sees, count on both sides.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def fit_encoders(input: Path, told: Mapping[str, Any], gear: str | None = None) 
     if not told["is_double_sided"]:
         raise CommandError(
             "The encoders show no impacts on both flanks: the backlash is more than "
-            f"{told['play']['value'] * 1e6:.3g} um, and no more is known; record a speed at which both are hit."
+            f"{told['play']['value'] * 1e6:.3g} um; record a speed at which both are hit."
         )
     if told["drag_over_inertia"] is None:
         raise CommandError("The encoders show no flights, from which drag over inertia could be fitted.")
@@ -83,8 +83,8 @@ def fit_encoders(input: Path, told: Mapping[str, Any], gear: str | None = None) 
         seen, lever = solved(input, settings | values, gear)
         if not seen.is_double_sided or seen.deceleration is None:
             raise CommandError(
-                f"With {_words(values)} the computed motion has no impacts on both flanks, as the measured one "
-                "has: check oil, inertia and the orders of the shaft."
+                f"With {_words(values)} the computed motion has no impacts on both flanks, as the measured "
+                "one has: check oil, inertia and the orders of the shaft."
             )
         longer = play["value"] - seen.play.value
         more = ratio["value"] - seen.deceleration.value / lever
@@ -156,7 +156,7 @@ def solved(input: Path, settings: Mapping[str, Any], gear: str | None) -> tuple[
     mass, steady, frequency = (float(numbers[f"load.{key}"]) for key in ("mass", "steady_force", "frequency"))
     part = slice(SETTLING * SAMPLES, None)
     time, gap, acceleration, force = (np.array(result[name][part], dtype=float) for name in COLUMNS)
-    # The gear's own acceleration is the relative one and that of the shaft, which F - Q accelerates the mass by.
+    # The gear's own acceleration is the relative one and that of the shaft, (F - Q)/m.
     own = acceleration + (force - steady) / mass
     velocity = integrate.cumulative_simpson(own, x=time, initial=0.0)
     gear_way = integrate.cumulative_simpson(velocity, x=time, initial=0.0)
@@ -167,7 +167,7 @@ def solved(input: Path, settings: Mapping[str, Any], gear: str | None) -> tuple[
 
 
 def comparison(told: Mapping[str, Any], seen: Flights) -> list[list[str]]:
-    """What was measured of the impacts beside what the fitted input computes: a check that the fit did not use."""
+    """What was measured of the impacts beside what the fitted input computes, which the fit did not use."""
     rows = [["", "measured", "computed"]]
     for side, flank in (("drive", seen.drive), ("coast", seen.coast)):
         for words, key, scale in COMPARED:

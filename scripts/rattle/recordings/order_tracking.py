@@ -15,13 +15,12 @@ from rattle.recordings import mending, options, units
 from rattle.recordings.angle import ShaftAngle
 from rattle.recordings.channels import Channel, choose
 from rattle.recordings.faults import RecordingError
-from rattle.recordings.order_windows import Course, longest_run, mean_course, track, waterfall
+from rattle.recordings.order_windows import Course, longest_run, mean_course, stand_out, track, waterfall
 
 CYCLES = 2  # a window reaches so many cycles either way at least
 ROWS = 30  # of a table, or some less
 RESOLVED = 0.8  # of the Nyquist frequency at the highest speed
 SEEN = 3e-3  # of the strongest order of a speed: orders below it are not looked at
-STANDING_OUT = 5.0  # standard errors by which an order that is chosen by its power exceeds the noise
 UNCERTAIN = 0.02  # of an amplitude: larger errors are warned of
 LEAST_SAMPLES = 64
 # How often a signal is differentiated to an acceleration, by its unit.
@@ -108,22 +107,18 @@ def track_run_up(
     asked = sorted({float(order) for order in orders or ()})
     wanted = sorted({*_seen(picture, cycle_revolutions, highest), *asked})
     centres, hum = course.at_speed(rows), [2.0 * math.pi * tone * time for tone in tones]
-    for is_last in (False, True):
-        if not wanted:
-            raise RecordingError("no order stands out of the signal; name those to keep by --orders.")
-        least = max(reach, 4.0 * math.pi / min(np.diff(wanted), default=1.0))
-        tracked, errors = track(phase, values, wanted, centres, least, hum)
-        if not np.all(np.isfinite(tracked)):
-            bad = rows[~np.all(np.isfinite(tracked), axis=1)][0] * PER_MINUTE
-            raise RecordingError(
-                f"at {bad:.4g} 1/min there are too few samples for {len(wanted)} orders; "
-                "ask for fewer by --orders and --highest, or record longer."
-            )
-        if not is_last:  # what does not stand out of the noise is not fitted again
-            clear = np.any(np.abs(tracked) > STANDING_OUT * errors, axis=0)
-            wanted = [
-                order for order, is_clear in zip(wanted, clear, strict=True) if is_clear or order in asked
-            ]
+    clear = stand_out(phase, values, wanted, centres, reach, hum)
+    wanted = [order for order, is_clear in zip(wanted, clear, strict=True) if is_clear or order in asked]
+    if not wanted:
+        raise RecordingError("no order stands out of the signal; name those to keep by --orders.")
+    least = max(reach, 4.0 * math.pi / min(np.diff(wanted), default=1.0))
+    tracked, errors = track(phase, values, wanted, centres, least, hum)
+    if not np.all(np.isfinite(tracked)):
+        bad = rows[~np.all(np.isfinite(tracked), axis=1)][0] * PER_MINUTE
+        raise RecordingError(
+            f"at {bad:.4g} 1/min there are too few samples for {len(wanted)} orders; "
+            "ask for fewer by --orders, or record longer."
+        )
     turned = (1j * np.outer(rows, wanted)) ** derivatives
     tracked, errors = tracked * turned, errors * np.abs(turned)
     powers = np.mean(np.maximum(np.abs(tracked) ** 2 - 2.0 * errors**2, 0.0), axis=0)
@@ -379,7 +374,7 @@ def doubts(found: RunUp) -> list[str]:
         if off.size and np.max(off) > UNCERTAIN * np.max(size):
             notes.append(
                 f"Order {order:g} bends between the rows at {found.speeds[1 + np.argmax(off)]:.6g} 1/min: "
-                f"the line between is off by about {np.max(off) / np.max(size):.1%} of the largest amplitude; "
+                f"the line between is off by {np.max(off) / np.max(size):.1%} of the largest amplitude: "
                 "take a smaller --step."
             )
     return notes

@@ -21,7 +21,8 @@ LEAST_CYCLES = 5
 REVERSAL = 0.1  # share of the range of speeds by which it may fall back within a run-up
 ERROR_SOUGHT = 5e-3  # of an amplitude; windows widen until it is reached, or until they reach the next rows
 WATERFALL_ROWS = 80
-DEGREE = 2
+DEGREE = 2  # of the amplitudes in a window; of the slow rest of the signal one more
+STANDING_OUT = 5.0  # standard errors by which an order exceeds the noise
 
 
 @dataclass(frozen=True)
@@ -107,19 +108,20 @@ def fit_window(
     centre: float,
     half: float,
     tones: Sequence[np.ndarray] = (),
+    degree: int = DEGREE,
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """Complex amplitudes of orders at an angle [rad] and their standard errors, from samples near it.
 
     Samples up to `half` [rad] from it count, whose mean angle is `phase` [rad]; `tones` are phases [rad] of
-    what else oscillates. None: too few samples for a fit.
+    what else oscillates, `degree` is that of the amplitudes. None: too few samples for a fit.
     """
     part = slice(*np.searchsorted(phase, [centre - half, centre + half]))
     place = (phase[part] - centre) / half
-    powers = np.vander(place, DEGREE + 1, increasing=True)
+    powers = np.vander(place, degree + 1, increasing=True)
     columns = [np.vander(place, DEGREE + 2, increasing=True)]
     for angle, shapes in (
         *((order * phase[part], powers) for order in orders),
-        *((tone[part], powers[:, :DEGREE]) for tone in tones),
+        *((tone[part], powers[:, : max(1, degree)]) for tone in tones),
     ):
         columns += [shapes * np.cos(angle)[:, None], -shapes * np.sin(angle)[:, None]]
     matrix = np.concatenate(columns, axis=1)
@@ -137,8 +139,8 @@ def fit_window(
     freedom = float(np.sum(weight**2)) * (1.0 - matrix.shape[1] / len(place))
     heavier = weighted * weight[:, None]
     variance = np.sum(rest**2) / freedom * np.sum(inverse @ (heavier.T @ heavier) * inverse, axis=1)
-    first = DEGREE + 2 + 2 * (DEGREE + 1) * np.arange(len(orders))
-    second = first + DEGREE + 1
+    first = DEGREE + 2 + 2 * (degree + 1) * np.arange(len(orders))
+    second = first + degree + 1
     return found[first] + 1j * found[second], np.sqrt(np.maximum(variance[first], variance[second]))
 
 
@@ -169,6 +171,24 @@ def track(
                 break
             half = min(2.0 * half, max(apart[row], least))
     return found, errors
+
+
+def stand_out(
+    phase: np.ndarray,
+    values: np.ndarray,
+    orders: Sequence[float],
+    centres: np.ndarray,
+    least: float,
+    tones: Sequence[np.ndarray] = (),
+) -> np.ndarray:
+    """Of each order whether it exceeds the noise at two neighbouring centres, constant within a window."""
+    is_clear = np.zeros((len(centres), len(orders)), dtype=bool)
+    apart = np.maximum(least, np.abs(np.gradient(centres)))
+    for row, (centre, half) in enumerate(zip(centres, apart, strict=True)):
+        fitted = fit_window(phase, values, orders, centre, half, tones, degree=0)
+        if fitted is not None:
+            is_clear[row] = np.abs(fitted[0]) > STANDING_OUT * fitted[1]
+    return np.any(is_clear[1:] & is_clear[:-1], axis=0)
 
 
 def waterfall(
