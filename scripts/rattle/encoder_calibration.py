@@ -1,7 +1,7 @@
 """Fits backlash and drag, or inertia, of a loose gear to what two encoders show (recording.py encoders).
 
-The program solves the motion under the shaft that was measured, and what reads the encoders reads that, too:
-so the oil films, which no encoder sees, count on both sides.
+The program solves the motion under the shaft that was measured, and what reads the encoders reads that, too,
+with their noise: so oil films, which no encoder sees, and errors of reading count on both sides.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,7 @@ from rattle.recordings.loose_flight import Flank, Flights, Motion, look
 from rattle.solve import Gearbox, run
 
 PERIODS, SETTLING = 60, 20  # periods of the force that are solved, and those left out at their beginning
-SAMPLES = 2048  # a period
+SAMPLES = 4096  # a period
 COLUMNS = ("time", "gear_position", "acceleration", "applied_force")
 ROUNDS = 8
 CLOSE = 0.05  # of an interval: a fit that moves by less has come to its end
@@ -80,7 +80,7 @@ def fit_encoders(input: Path, told: Mapping[str, Any], gear: str | None = None) 
     values = {BACKLASH: float(start[BACKLASH]), drag: float(start[drag])}
     unit = torque / values[drag]  # N m of the drag for each of its key
     for _ in range(ROUNDS):
-        seen, lever = solved(input, settings | values, gear)
+        seen, lever = solved(input, settings | values, gear, told["step"], told["noise"])
         if not seen.is_double_sided or seen.deceleration is None:
             raise CommandError(
                 f"With {_words(values)} the computed motion has no impacts on both flanks, as the measured "
@@ -97,19 +97,19 @@ def fit_encoders(input: Path, told: Mapping[str, Any], gear: str | None = None) 
             break
     else:
         notes.append(f"The fit moves on after {ROUNDS} rounds: the computed motion is not regular.")
-    half = 0.5 * _width(ratio) * inertia / unit
-    fitted_torque = unit * values[drag]
-    per_inertia = fitted_torque / inertia
-    low, high = per_inertia - 0.5 * _width(ratio), per_inertia + 0.5 * _width(ratio)
+    # Both the measured and the computed motion are known to an interval.
+    half_play = 0.5 * math.hypot(_width(play), _width(asdict(seen.play)))
+    half = 0.5 * math.hypot(_width(ratio), _width(asdict(seen.deceleration)) / lever)
+    per_inertia = unit * values[drag] / inertia
     notes += [
         f"Drag over inertia is {per_inertia:.4g} 1/s2; flights tell this ratio alone. {drag} is that of "
         f"{INERTIA} = {inertia:.4g} of the input.",
         f"Were the drag of the input right, {torque:.4g} N m, {INERTIA} would be {torque / per_inertia:.4g}, "
-        f"{torque / high:.4g} to {torque / max(low, 1e-300):.4g} kg m2.",
+        f"{torque / (per_inertia + half):.4g} to {torque / max(per_inertia - half, 1e-300):.4g} kg m2.",
     ]
     fitted = (
-        Fitted(BACKLASH, values[BACKLASH], _around(values[BACKLASH], 0.5 * _width(play))),
-        Fitted(drag, values[drag], _around(values[drag], half)),
+        Fitted(BACKLASH, values[BACKLASH], _around(values[BACKLASH], half_play)),
+        Fitted(drag, values[drag], _around(values[drag], half * inertia / unit)),
     )
     return EncoderFit(fitted, comparison(told, seen), tuple(notes))
 
@@ -137,8 +137,13 @@ def measured_shaft(
     return settings
 
 
-def solved(input: Path, settings: Mapping[str, Any], gear: str | None) -> tuple[Flights, float]:
-    """What the computed motion shows, and the lever [m] from its accelerations to those of the angle."""
+def solved(
+    input: Path, settings: Mapping[str, Any], gear: str | None, step: float, noise: float
+) -> tuple[Flights, float]:
+    """What the computed motion shows at samples `step` [s] apart with `noise` [m].
+
+    Beside it the lever [m] from its accelerations to those of the angle.
+    """
     asked = {
         "scene.task": "motion",
         "solver.until": "periods",
@@ -163,7 +168,9 @@ def solved(input: Path, settings: Mapping[str, Any], gear: str | None) -> tuple[
     lever = float(numbers["gear.base_radius_2"]) * math.cos(
         math.radians(float(numbers["gear.base_helix_angle"]))
     )
-    return look(Motion(float(time[1] - time[0]), gap, gear_way, time * frequency)), lever
+    even = np.arange(time[0], time[-1], step)
+    disturbed = np.interp(even, time, gap) + np.random.default_rng(0).normal(0.0, noise, len(even))
+    return look(Motion(step, disturbed, np.interp(even, time, gear_way), even * frequency)), lever
 
 
 def comparison(told: Mapping[str, Any], seen: Flights) -> list[list[str]]:

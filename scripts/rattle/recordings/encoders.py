@@ -190,7 +190,7 @@ def run(arguments: argparse.Namespace) -> int:
         notes += [note for note in shafts[-1].notes if note not in notes]
     motion, shaft = relative_motion(*shafts, geometry, period_order)
     found = look(motion)
-    told = as_dict(found, shaft, geometry, period_order, arguments.temperature)
+    told = as_dict(found, shaft, geometry, period_order, motion.step, arguments.temperature)
     text = json.dumps(told, indent=2) + "\n"
     outputs.write(
         [(arguments.output, outputs.text_writer(text))], overwrite=arguments.overwrite, inputs=arguments.files
@@ -238,7 +238,12 @@ def _pair(arguments: argparse.Namespace) -> tuple[Geometry, float]:
 
 
 def as_dict(
-    found: Flights, shaft: Shaft, geometry: Geometry, period_order: float, temperature: float | None
+    found: Flights,
+    shaft: Shaft,
+    geometry: Geometry,
+    period_order: float,
+    step: float,
+    temperature: float | None,
 ) -> dict[str, Any]:
     """What is written, in SI units: estimates with value, interval low to high, scatter and count."""
     lever = geometry.loose * math.cos(geometry.helix)
@@ -253,6 +258,7 @@ def as_dict(
         "play": asdict(found.play),
         "is_double_sided": found.is_double_sided,
         "drag_over_inertia": None if flown is None else asdict(_scaled(flown, 1.0 / lever)),
+        "step": step,
         "drift": found.drift,
         "noise": found.noise,
     }
@@ -299,6 +305,7 @@ def words(found: Flights, shaft: Shaft, period_order: float) -> list[str]:
         f"order{'s' if len(shaft.orders) > 1 else ''} {orders}.",
         f"A drift of {found.drift * 1e6:.3g} um was taken off; the noise is {found.noise * 1e6:.3g} um.",
     ]
+    told.append("Impacts behind a flight of less than a fifth of the play are not counted.")
     if found.is_double_sided:
         told.append("The backlash is larger by the oil films at contact, which no encoder sees.")
     else:

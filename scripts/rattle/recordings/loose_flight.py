@@ -11,16 +11,20 @@ from scipy import interpolate, optimize, signal
 from rattle.recordings.faults import RecordingError
 
 # Shares of the play: a tooth has left a flank beyond the first, is back within the second.
-AWAY, NEAR = 0.25, 0.12
+AWAY, NEAR = 0.2, 0.1
+RISE = 0.05  # by which a turn stands out
 FLIGHT = (0.25, 0.75)  # where a gear flies, far from both films
 APPROACH = (0.05, 0.35)  # before a flank, where the approach velocity is fitted
-HIT = 0.4  # of the velocity at which a tooth comes near: with less it turns without a contact
+# Of the velocity at which a tooth comes near it has so much at a contact, and changes it by as much of that.
+HIT = 0.5
 SETTLED, REBOUND = 2.0e-4, 1.5e-3  # s behind a contact: between them its rebound is fitted
 SMOOTH = 0.01  # of a period: largest window of smoothing
 NOISE_SOUGHT = 0.005  # of the play, after smoothing
 KNOTS = 2.5  # periods between the knots of the drift
 LEAST_SAMPLES = 8  # of a fit
+LONGEST = 1 << 16  # samples of an approach
 LEAST_PERIODS = 8
+STANDING_OUT = 12.0  # of the noise of smoothed positions, whose extremes are some six apart
 LEAST_EVENTS = 3
 DRAWS = 1000
 CONFIDENCE = 0.95
@@ -105,7 +109,7 @@ def look(motion: Motion) -> Flights:
     # Where the flanks seem to be: at the extremes of each period; then at the contacts.
     lowest, highest = (_extremes(smooth, edges, which) for which in (np.argmin, np.argmax))
     drift, low, play = _flanks(motion, lowest, smooth[lowest], highest, smooth[highest])
-    if not play.value > 4.0 * noise / math.sqrt(window):
+    if not play.value > STANDING_OUT * noise / math.sqrt(window):
         raise RecordingError(
             f"the relative motion of {play.value * 1e6:.3g} um does not stand out of the encoders' noise, "
             f"{noise * 1e6:.3g} um."
@@ -218,26 +222,43 @@ def _arrivals(height: np.ndarray, first: int, last: int) -> np.ndarray:
 
 
 def _contact(height: np.ndarray, raw: np.ndarray, at: int, step: float) -> Contact | None:
-    """The contact behind an arrival near a flank, by parabolas before and behind it; None: there is none."""
-    reach = max(LEAST_SAMPLES, int(2.0 * REBOUND / step))
-    floor = float(np.min(height[at : at + reach]))
-    near = height[: at + reach] - floor
-    turn = at + int(np.argmax(near[at:] < APPROACH[0]))
-    outside = np.flatnonzero(near[:turn] > APPROACH[1])
-    begin = int(outside[-1]) + 1 if outside.size else 0
+    """The contact behind an arrival near a flank, where parabolas before and behind meet; None: none."""
+    longest = max(LEAST_SAMPLES, int(REBOUND / step))
+    stay = height[at : at + 2 * longest]
+    floor = float(np.min(stay[: _first(stay > np.minimum.accumulate(stay) + RISE)]))
+    turn = at + _first(stay < floor + APPROACH[0])
+    way = height[max(0, turn - LONGEST) : turn][::-1] - floor
+    begin = turn - _first((way > APPROACH[1]) | (way < np.maximum.accumulate(way) - RISE))
     if turn - begin < LEAST_SAMPLES:
         return None
     fall = np.polynomial.Polynomial.fit((np.arange(begin, turn) - turn) * step, raw[begin:turn], 2)
     entering, slope = float(fall.deriv()((begin - turn) * step)), float(fall.deriv()(0.0))
-    # From the end of the parabola the tooth goes straight on to where it turned.
-    contact = (fall(0.0) - floor) / -slope if slope < 0.0 else 0.0
-    approach = -float(fall.deriv()(min(contact, (turn - begin) * step)))
-    start = turn + int((contact + SETTLED) / step)
-    stop = start + max(LEAST_SAMPLES, int(REBOUND / step))
-    if approach < HIT * -entering or approach <= 0.0 or stop > len(raw) or contact > (turn - begin) * step:
+    touch = (fall(0.0) - floor) / -slope if slope < 0.0 else math.inf
+    if not 0.0 <= touch < (turn - begin) * step or -float(fall.deriv()(touch)) < HIT * -entering:
         return None
-    back = np.polynomial.Polynomial.fit(np.arange(stop - start) * step, raw[start:stop], 2)
-    return Contact(turn + int(contact / step), float(back(0.0)), approach, float(back.deriv()(0.0)))
+    start = turn + int((touch + SETTLED) / step) + 1
+    rise = height[start : start + longest] - floor
+    stop = start + max(LEAST_SAMPLES, _first(rise > APPROACH[1]))
+    if stop > len(raw):
+        return None
+    back = np.polynomial.Polynomial.fit((np.arange(start, stop) - turn) * step, raw[start:stop], 2)
+    # The tooth goes straight on from the parabola before to that behind, which meet at the contact.
+    closing = float(back.deriv()(touch) - fall.deriv()(touch))
+    if closing < HIT * -float(fall.deriv()(touch)):
+        return None
+    contact = touch + float(fall(touch) - back(touch)) / closing
+    contact = min(max(contact, touch - SETTLED), touch + SETTLED)
+    return Contact(
+        turn + round(contact / step),
+        float(back(contact)),
+        -float(fall.deriv()(contact)),
+        float(back.deriv()(contact)),
+    )
+
+
+def _first(found: np.ndarray) -> int:
+    """Place of the first that is true, the length where none is."""
+    return int(np.argmax(found)) if found.any() else len(found)
 
 
 def _accelerations(height: np.ndarray, motion: Motion, edges: np.ndarray) -> np.ndarray:
