@@ -19,7 +19,17 @@ from rattle.keys import key_table
 # They share a folder of the build: the tests of a file run one after another.
 pytestmark = pytest.mark.long
 
-SCRIPTS = ("calibrate", "campaign", "classify", "compare", "export", "plot", "report", "sensitivity")
+SCRIPTS = (
+    "calibrate",
+    "campaign",
+    "classify",
+    "compare",
+    "export",
+    "plot",
+    "recording",
+    "report",
+    "sensitivity",
+)
 
 
 def call(*command: object, cwd: Path, **environment: str) -> str:

@@ -1,4 +1,4 @@
-"""From time to the angle of a shaft: by an angle channel, pulses of a wheel, or a speed that is integrated."""
+"""From time to the angle of a shaft: by an angle channel, pulses of a wheel, or an integrated speed."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ from rattle.recordings.faults import RecordingError
 TURN = 2.0 * np.pi
 # A gap of a recording that is bridged unless more is allowed [s].
 BRIDGE = 0.01
+# Units of what is no tacho.
+NO_PULSES = ("N", "N m", "m/s2", "rad", "rad/s", "rad/s2")
 Kind = Literal["angle", "tacho", "speed"]
 # Degree of the splines through samples.
 DEGREE = 5
@@ -108,7 +110,8 @@ def angles_of(channel: Channel, shaft: ShaftAngle) -> tuple[np.ndarray, np.ndarr
     if not np.all(np.diff(angle) > 0.0):
         at = channel.time[known][int(np.argmin(np.diff(angle)))]
         raise RecordingError(
-            f"{channel.source}: the angle of the shaft does not rise at {at:.6g} s; its tacho or angle jitters "
+            f"{channel.source}: the angle of the shaft does not rise at {at:.6g} s; its tacho or angle "
+            "jitters "
             "by more than a sample."
         )
     return angle, values
@@ -119,8 +122,8 @@ def resample_on_angle(
 ) -> tuple[np.ndarray, np.ndarray, float]:
     """The channel at equal angles [rad], multiples of their step, and the error of the interpolation.
 
-    A spline of degree 5 runs through the samples over their angle, so nothing is filtered: take at least as many
-    samples a revolution as the recording has. The error is the rms of `interpolation_error`.
+    A spline of degree 5 runs through the samples over their angle, so nothing is filtered: take at least as
+    many samples a revolution as the recording has. The error is the rms of `interpolation_error`.
     """
     angle, values = angles_of(channel, shaft)
     step = TURN / samples_per_revolution
@@ -158,7 +161,8 @@ def _checked(shaft: ShaftAngle, channel: Channel) -> ShaftAngle:
         )
     if shaft.revolutions < 1.0:
         raise RecordingError(
-            f"{channel.source}: the recording spans {shaft.revolutions:.3g} of a revolution by '{channel.name}'; "
+            f"{channel.source}: the recording spans {shaft.revolutions:.3g} of a revolution by "
+            f"'{channel.name}'; "
             "it takes at least one."
         )
     return shaft
@@ -169,7 +173,8 @@ def _from_angle(channel: Channel, bridge: float, mend: bool, notes: list[str]) -
     time, angle = channel.time[finite], channel.within("rad")[finite]
     if len(angle) < 4 or np.ptp(angle) == 0.0:
         raise RecordingError(
-            f"{channel.source}: '{channel.name}' has {len(angle)} samples, all at {angle[:1]} rad; that is no "
+            f"{channel.source}: '{channel.name}' has {len(angle)} samples, all at {angle[:1]} rad; that "
+            "is no "
             "angle of a shaft that turns."
         )
     if np.median(np.sign(np.diff(angle))) < 0.0:
@@ -238,7 +243,9 @@ def _from_speed(channel: Channel, bridge: float, mend: bool, notes: list[str]) -
     if not np.all(values > 0.0):
         at = int(np.argmin(values))
         raise RecordingError(
-            f"{channel.source}: '{channel.name}' is {own.values[at]:.4g} {channel.unit} at {time[at]:.6g} s; an "
+            f"{channel.source}: '{channel.name}' is {own.values[at]:.4g} {units.shown(channel.unit)} at "
+            f"{time[at]:.6g} "
+            "s; an "
             "angle needs a speed that keeps its sign; cut the recording, or let --mend replace drop-outs."
         )
     spline = interpolate.make_interp_spline(time, values, k=_degree(len(time)))
@@ -256,6 +263,13 @@ def _from_pulses(channel: Channel, teeth: int, missing: int, bridge: float) -> S
     """Rising edges of a wheel; drop-outs are spans of several teeth where the wheel has no gap."""
     if not 0 <= missing < teeth:
         raise RecordingError(f"a wheel of {teeth} teeth cannot miss {missing}.")
+    for unit in NO_PULSES:
+        if channel.unit and units.fits(channel.unit, unit):
+            raise RecordingError(
+                f"{channel.source}: '{channel.name}' is in {channel.unit}, so it is no tacho; pulses are "
+                "in V or have "
+                "no unit."
+            )
     notes: list[str] = []
     edges = rising_edges(channel)
     if len(edges) < max(4, teeth - missing):
@@ -298,7 +312,8 @@ def _from_pulses(channel: Channel, teeth: int, missing: int, bridge: float) -> S
         notes.append(f"angle 0 is the tooth behind the gap of '{channel.name}'.")
     if teeth - missing < 8:
         notes.append(
-            f"with {teeth} pulse{'s' if teeth > 1 else ''} a revolution what the speed does in between is not seen: "
+            f"with {teeth} pulse{'s' if teeth > 1 else ''} a revolution what the speed does in between is "
+            "not seen: "
             f"the angle follows orders below {0.5 * teeth:g} alone."
         )
     return _checked(ShaftAngle(edges, angle, notes, error, marked), channel)
@@ -346,7 +361,8 @@ def _without_extra(edges: np.ndarray, channel: Channel, notes: list[str]) -> np.
     if extra.size:
         if extra.size > 0.1 * len(edges):
             raise RecordingError(
-                f"{channel.source}: {extra.size} of {len(edges)} pulses of '{channel.name}' come too soon behind "
+                f"{channel.source}: {extra.size} of {len(edges)} pulses of '{channel.name}' come too soon "
+                "behind "
                 "another; it is no tacho, or noise crosses its middle."
             )
         notes.append(
@@ -382,7 +398,8 @@ def _tell_dropped(
         )
     if dropped.size > 0.2 * len(counts):
         raise RecordingError(
-            f"{channel.source}: {dropped.size} of {len(counts)} pulses of '{channel.name}' do not follow each "
+            f"{channel.source}: {dropped.size} of {len(counts)} pulses of '{channel.name}' do not follow "
+            "each "
             "other evenly; check --pulses and --missing."
         )
     notes.append(

@@ -27,7 +27,6 @@ BY_BEGINNING: tuple[tuple[bytes, str], ...] = (
 BY_SUFFIX = {
     ".mf4": "mdf",
     ".mdf": "mdf",
-    ".dat": "",
     ".tdms": "tdms",
     ".h5": "hdf5",
     ".hdf5": "hdf5",
@@ -44,6 +43,7 @@ READERS: dict[str, Callable[[Path, list[str]], list[Raw]]] = {
     "uff": measurement_files.read_uff,
     "text": text_file.read_text,
 }
+NAMES = {"mdf": "MDF", "tdms": "TDMS", "hdf5": "HDF5"}
 LEAST_SAMPLES = 2
 # What the option says that stands for times.
 RATE = "samples a second of a file without times"
@@ -67,7 +67,7 @@ class Channel:
     @property
     def label(self) -> str:
         """Name with unit."""
-        return f"{self.name} [{self.unit}]" if self.unit else self.name
+        return f"{self.name} [{units.shown(self.unit)}]" if self.unit else self.name
 
     def within(self, unit: str) -> np.ndarray:
         """The values in another unit."""
@@ -79,7 +79,8 @@ def read_channels(
 ) -> list[Channel]:
     """All channels of a recording: text (CSV), MDF, TDMS, UFF 58, MAT or HDF5.
 
-    `rate` [Hz] stands for times that the file does not have. What was made of the file is appended to `notes`.
+    `rate` [Hz] stands for times that the file does not have. What was made of the file is appended to
+    `notes`.
     """
     path = Path(path)
     told = [] if notes is None else notes
@@ -87,6 +88,11 @@ def read_channels(
     channels: list[Channel] = []
     for raw in found:
         time, has_time = raw.time, raw.time is not None
+        if np.any(strange := np.abs(raw.values) > text_file.LARGEST):
+            at = int(np.argmax(strange))
+            raise RecordingError(
+                f"{path}: sample {at + 1} of '{raw.name}' is {raw.values[at]:g}, no number of a bench."
+            )
         if time is None:
             time = np.arange(len(raw.values)) / (rate or 1.0)
             has_time = rate is not None
@@ -95,9 +101,8 @@ def read_channels(
     if not channels:
         raise RecordingError(f"{path} has no channel of numbers.")
     if not any(len(channel.values) >= LEAST_SAMPLES for channel in channels):
-        raise RecordingError(
-            f"{path} has {max(len(c.values) for c in channels)} sample; that is no recording."
-        )
+        count = max(len(channel.values) for channel in channels)
+        raise RecordingError(f"{path} has {count or 'no'} sample of a known time; that is no recording.")
     if not any(np.isfinite(channel.values).any() for channel in channels):
         raise RecordingError(f"{path} has no number in any channel: all are gaps.")
     return channels
@@ -146,13 +151,10 @@ def _format(path: Path) -> str:
         if beginning.startswith(bytes_):
             return name
     named = BY_SUFFIX.get(path.suffix.lower(), "")
-    if named and named != "uff":
-        words = {"mdf": "MDF", "tdms": "TDMS", "hdf5": "HDF5", "mat": "MATLAB"}[named]
-        raise (
-            RecordingError(f"{path} is no {words} file, in spite of its name.")
-            if b"\0" in beginning
-            else RecordingError(
-                f"{path} is no {words} file, in spite of its name; text is read from NAME.csv."
-            )
+    if named == "mat":  # of version 4, which nothing marks
+        return named
+    if named in NAMES:
+        raise RecordingError(
+            f"{path} is no {NAMES[named]} file, in spite of its name; text is read from NAME.csv."
         )
     return "text"

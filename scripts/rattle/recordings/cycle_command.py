@@ -85,7 +85,7 @@ def measure(arguments: argparse.Namespace, notes: list[str]) -> tuple[cycles.Mea
     quantity = signals.SPEED
     if signal is None:
         shaft = options.angle_of(arguments, reference)
-        signal = signals.speed_of(shaft, reference.name, reference.source, notes)
+        notes.append(f"the signal is the speed of the shaft, from the angle by '{reference.name}'.")
     else:
         signal, quantity = signals.taken(signal, arguments.radius, notes)
         if signal.has_time:
@@ -143,7 +143,8 @@ def _shaft(
     if arguments.speed_near is not None:
         return speed_search.steady_angle(signal, arguments.speed_near, arguments.cycle_revolutions)
     raise RecordingError(
-        f"what turns '{signal.name}' into cycles? Name the channel of the shaft by --angle, --tacho (with --pulses) "
+        f"what turns '{signal.name}' into cycles? Name the channel of the shaft by --angle, --tacho (with "
+        "--pulses) "
         "or --speed, or give --speed-near RPM and the speed is measured from the signal."
     )
 
@@ -158,7 +159,8 @@ def _over_angle(
     """A signal over the angle alone: times follow from its speed, or from the speed that the user gives."""
     if reference is None or not units.fits(reference.unit, "rad"):
         raise RecordingError(
-            f"{signal.source} has no column of time and none of an angle; give its sampling rate by --rate, in Hz."
+            f"{signal.source} has no column of time and none of an angle; give its sampling rate by "
+            "--rate, in Hz."
         )
     nominal = arguments.speed_near
     if quantity.is_speed and nominal is None:
@@ -177,7 +179,8 @@ def _over_angle(
     if quantity.is_speed:
         if not np.all(signal.values > 0.0):
             raise RecordingError(
-                f"{signal.source}: '{signal.name}' falls to {signal.values.min():.4g} 1/min; a shaft that turns has a "
+                f"{signal.source}: '{signal.name}' falls to {signal.values.min():.4g} 1/min; a shaft that "
+                "turns has a "
                 "speed above zero; --mend replaces drop-outs."
             )
         slowness = radian / signal.values
@@ -191,7 +194,7 @@ def _over_angle(
 def _rows(cycle: cycles.MeanCycle) -> list[list[str]]:
     """The strongest orders, in their order."""
     shown = np.sort(np.argsort(-cycle.amplitudes, kind="stable")[:PRINTED])
-    rows = [["order", f"amplitude [{cycle.unit}]", "+-", "phase [deg]", "+-"]]
+    rows = [["order", f"amplitude [{units.shown(cycle.unit)}]", "+-", "phase [deg]", "+-"]]
     for place in shown:
         if cycle.amplitudes[place] < 1e-3 * cycle.amplitudes.max():
             continue

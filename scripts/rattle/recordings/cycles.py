@@ -7,12 +7,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import interpolate
 
-from rattle.recordings import mending
+from rattle.recordings import mending, units
 from rattle.recordings.angle import BRIDGE, DEGREE, TURN, ShaftAngle, angles_of, interpolation_error
 from rattle.recordings.channels import Channel
 from rattle.recordings.faults import RecordingError
 
 SAMPLES = 360
+# Samples of a cycle that rattle takes at least.
+LEAST_SAMPLES = 4
 # Scatter of the cycles beyond which the user is warned, and drift of the speed that is named as its cause.
 WIDE_SCATTER = 0.1
 DRIFT = 0.01
@@ -27,10 +29,10 @@ SIGNIFICANT = 4.0
 class MeanCycle:
     """The mean of whole cycles at equal angles, and its harmonics: a cos(order angle + phase).
 
-    `angle` [rad] begins with 0. `amplitude_errors` and `phase_errors` [rad] are standard errors of the means, not
-    a number of a single cycle. `scatter` is the rms by which cycles differ from their mean over the rms of what
-    oscillates of it. `speed_range` [1/min] is that of the mean speeds of the cycles, `kept` how many harmonics
-    stand out of the scatter. `warnings` and `notes` are sentences for the user.
+    `angle` [rad] begins with 0. `amplitude_errors` and `phase_errors` [rad] are standard errors of the
+    means, not a number of a single cycle. `scatter` is the rms by which cycles differ from their mean over
+    the rms of what oscillates of it. `speed_range` [1/min] is that of the mean speeds of the cycles, `kept`
+    how many harmonics stand out of the scatter. `warnings` and `notes` are sentences for the user.
     """
 
     name: str
@@ -56,7 +58,7 @@ class MeanCycle:
 
 
 def mean_cycle(
-    channel: Channel,
+    channel: Channel | None,
     shaft: ShaftAngle,
     *,
     cycle_revolutions: int = 2,
@@ -65,13 +67,84 @@ def mean_cycle(
     mend: bool = False,
     bridge: float = BRIDGE,
 ) -> MeanCycle:
-    """Average the whole cycles of a steady recording.
+    """Average the whole cycles of a steady channel, or without one of the speed of the shaft itself [1/min].
 
     The channel is resampled onto equal angles, at least as dense as it was recorded, by a spline of degree 5;
-    after the mean is taken orders that `samples_per_revolution` cannot hold are cut off in its spectrum, so none is
-    folded back. `derivative`: the signal is a speed, of which rattle takes the derivative, so that its orders count
-    by their accelerations.
+    after the mean is taken, orders that `samples_per_revolution` cannot hold are cut off in its spectrum, so
+    none is folded back. `derivative`: the signal is a speed, of which rattle takes the derivative, so that
+    its orders count by their accelerations.
     """
+    length = TURN * cycle_revolutions
+    if channel is None:
+        record = _speed_of_shaft(shaft, length, samples_per_revolution)
+        derivative = True
+    else:
+        record = _samples_of_channel(channel, shaft, length, samples_per_revolution, mend, bridge)
+    rows, slow = _without_drift(record.rows)
+    spectra = np.fft.rfft(rows, axis=1) / rows.shape[1]
+    samples = samples_per_revolution * cycle_revolutions
+    # No more orders than the output holds, or the recording.
+    highest = min(samples // 2 - 1, record.highest, rows.shape[1] // 2 - 1)
+    if highest < 1:
+        raise RecordingError(
+            f"{record.name} has fewer than three samples a cycle, so no order of it is known."
+        )
+    spectrum = np.zeros(samples // 2 + 1, dtype=complex)
+    spectrum[: highest + 1] = spectra.mean(axis=0)[: highest + 1]
+    oscillating = spectrum[1 : highest + 1]
+    amplitudes = 2.0 * np.abs(oscillating)
+    along, across = _standard_errors(spectra[:, 1 : highest + 1])
+    edges = record.begin + length * np.arange(len(rows) + 1)
+    times = shaft.times(np.clip(edges, *shaft.angle[[0, -1]]))
+    speeds = 60.0 / TURN * np.diff(np.clip(edges, *shaft.angle[[0, -1]])) / np.diff(times)
+    cycle = MeanCycle(
+        name=record.name,
+        unit=record.unit,
+        angle=np.arange(samples) * length / samples,
+        values=np.fft.irfft(spectrum * samples, samples),
+        cycle_revolutions=cycle_revolutions,
+        cycles=len(rows),
+        left_out=record.left_out,
+        mean=float(spectrum[0].real),
+        orders=np.arange(1, highest + 1) / cycle_revolutions,
+        amplitudes=amplitudes,
+        phases=np.angle(oscillating),
+        amplitude_errors=along,
+        phase_errors=across / np.maximum(amplitudes, np.finfo(float).tiny),
+        scatter=_scatter(rows),
+        speed_rpm=float(60.0 / TURN * np.ptp(np.clip(edges, *shaft.angle[[0, -1]])) / np.ptp(times)),
+        speed_range=(float(speeds.min()), float(speeds.max())),
+        resampling_error=record.error,
+        kept=_kept(amplitudes, along, derivative),
+        notes=record.notes,
+        warnings=[],
+    )
+    return replace(
+        cycle,
+        notes=cycle.notes + _notes(cycle, record, slow),
+        warnings=_warnings(cycle, record, rows, speeds),
+    )
+
+
+@dataclass(frozen=True)
+class _Record:
+    """Whole cycles on equal angles, a row for each, and what is known of them."""
+
+    name: str
+    unit: str
+    rows: np.ndarray
+    begin: float
+    left_out: float
+    highest: int
+    error: float
+    method: str
+    notes: list[str]
+
+
+def _samples_of_channel(
+    channel: Channel, shaft: ShaftAngle, length: float, wanted: int, mend: bool, bridge: float
+) -> _Record:
+    """The cycles of a channel by a spline through its samples over the angle."""
     notes: list[str] = []
     channel = mending.mended(channel, mend=mend, notes=notes)
     if channel.has_time:
@@ -81,49 +154,126 @@ def mean_cycle(
         raise RecordingError(
             f"{channel.source}: '{channel.name}' is constant at {values[0]:.6g}; nothing oscillates."
         )
-    length = TURN * cycle_revolutions
-    begin, cycles, angle, values = _whole_cycles(channel, shaft, angle, values, length)
-    per_turn = _dense(angle, samples_per_revolution)
-    rows = _resampled(angle, values, begin, cycles, per_turn * cycle_revolutions, length)
-    spectra = np.fft.rfft(rows, axis=1) / rows.shape[1]
-    samples = samples_per_revolution * cycle_revolutions
-    # No more orders than the output holds, or the recording.
-    highest = min(samples // 2 - 1, int(0.5 * length / np.max(np.diff(angle))), rows.shape[1] // 2 - 1)
-    if highest < 1:
+    per_cycle = length / float(np.median(np.diff(angle)))
+    if per_cycle < LEAST_SAMPLES:
         raise RecordingError(
-            f"{channel.source}: '{channel.name}' has {length / np.mean(np.diff(angle)):.2g} samples a cycle; an order "
-            "takes more than two."
+            f"{channel.source}: '{channel.name}' has {per_cycle:.2g} samples a cycle of "
+            f"{length / TURN:.0f} revolutions; "
+            f"it takes {LEAST_SAMPLES}."
         )
-    mean = spectra.mean(axis=0)
-    spectrum = np.zeros(samples // 2 + 1, dtype=complex)
-    spectrum[: highest + 1] = mean[: highest + 1]
-    averaged = np.fft.irfft(spectrum * samples, samples)
-    amplitudes = 2.0 * np.abs(spectrum[1 : highest + 1])
-    phases = np.angle(spectrum[1 : highest + 1])
-    errors = _standard_errors(spectra[:, 1 : highest + 1])
-    cycle = MeanCycle(
+    begin, cycles, closed_angle, closed_values = _whole_cycles(channel, shaft, angle, values, length)
+    samples = round(length / TURN) * _dense(angle, wanted)
+    even = begin + np.arange(cycles * samples) * (length / samples)
+    degree = min(DEGREE, 2 * ((len(closed_angle) - 2) // 2) + 1)
+    spline = interpolate.make_interp_spline(closed_angle, closed_values, k=degree)
+    rows = spline(np.clip(even, *closed_angle[[0, -1]])).reshape(cycles, samples)
+    return _Record(
         name=channel.name,
         unit=channel.unit,
-        angle=np.arange(samples) * length / samples,
-        values=averaged,
-        cycle_revolutions=cycle_revolutions,
-        cycles=cycles,
-        left_out=(angle[-1] - angle[0]) / TURN - cycles * cycle_revolutions,
-        mean=float(spectrum[0].real),
-        orders=np.arange(1, highest + 1) / cycle_revolutions,
-        amplitudes=amplitudes,
-        phases=phases,
-        amplitude_errors=errors[0],
-        phase_errors=errors[1] / np.maximum(amplitudes, np.finfo(float).tiny),
-        scatter=_scatter(rows),
-        speed_rpm=np.nan,
-        speed_range=(np.nan, np.nan),
-        resampling_error=interpolation_error(angle, values),
-        kept=_kept(amplitudes, errors[0], derivative),
+        rows=rows,
+        begin=begin,
+        left_out=max(0.0, (angle[-1] - angle[0] - cycles * length) / TURN),
+        highest=int(0.5 * length / np.max(np.diff(angle))),
+        error=interpolation_error(angle, values),
+        method=f"a spline of degree {DEGREE} through the samples",
         notes=notes,
-        warnings=[],
     )
-    return _judged(cycle, shaft, channel, rows, begin)
+
+
+def _speed_of_shaft(shaft: ShaftAngle, length: float, wanted: int) -> _Record:
+    """The cycles of the speed of a shaft [1/min], from harmonics of the times of its angles.
+
+    In each cycle the times, less their slow course, are a straight line and harmonics by least squares:
+    also of a wheel with missing teeth, where a spline would have to guess. There are as many harmonics as
+    the gaps between the angles allow.
+    """
+    begin, cycles = _first_cycle(shaft, shaft.angle, length)
+    if cycles < 1:
+        raise RecordingError(_too_short("the angle of the shaft", shaft.angle, length))
+    slow = np.polynomial.Polynomial.fit(shaft.angle, shaft.time, 3 if cycles > 2 else 1)
+    rest = shaft.time - slow(shaft.angle)
+    samples = round(length / TURN) * wanted
+    even = np.arange(samples) * (length / samples)
+    highest = None
+    rows, off = [], []
+    for cycle in range(cycles):
+        start = begin + cycle * length
+        inside = slice(*np.searchsorted(shaft.angle, [start - 1e-9, start + length + 1e-9]))
+        angle, times = shaft.angle[inside] - start, rest[inside]
+        if len(angle) < 2 * LEAST_SAMPLES:
+            raise RecordingError(
+                f"{len(angle)} pulses or angles in a cycle of {length / TURN:.0f} revolutions do not show "
+                "what the speed "
+                f"does within it; it takes {2 * LEAST_SAMPLES}."
+            )
+        if highest is None:
+            highest = _harmonics_that_fit(angle, length)
+        matrix = _harmonic_matrix(angle, length, highest)
+        weights, *_ = np.linalg.lstsq(matrix, times, rcond=None)
+        off.append(times - matrix @ weights)
+        slowness = slow.deriv()(start + even) + _harmonic_slopes(even, length, highest) @ weights
+        rows.append(60.0 / TURN / slowness)
+    known = np.array(rows)
+    # What the harmonics leave of the times, as noise of as many harmonics in the speed.
+    misfit = float(np.sqrt(np.mean(np.concatenate(off) ** 2)))
+    inside_speed = misfit * highest * TURN / length / float(np.mean(60.0 / TURN / known)) * known.mean()
+    return _Record(
+        name="speed of the shaft",
+        unit="rpm",
+        rows=known,
+        begin=begin,
+        left_out=(shaft.angle[-1] - shaft.angle[0] - cycles * length) / TURN,
+        highest=highest,
+        error=inside_speed / max(float(np.std(known.mean(axis=0))), 1e-300) / np.sqrt(len(off[0])),
+        method="harmonics of the times of its angles, by least squares in each cycle",
+        notes=[],
+    )
+
+
+def _harmonic_matrix(angle: np.ndarray, length: float, highest: int) -> np.ndarray:
+    """A straight line, cosines and sines at angles."""
+    phases = TURN / length * angle[:, None] * np.arange(1, highest + 1)
+    return np.hstack((np.ones((len(angle), 1)), angle[:, None] / length, np.cos(phases), np.sin(phases)))
+
+
+def _harmonic_slopes(angle: np.ndarray, length: float, highest: int) -> np.ndarray:
+    """Derivatives of the columns of that matrix by the angle."""
+    rates = TURN / length * np.arange(1, highest + 1)
+    phases = angle[:, None] * rates
+    line = np.column_stack((np.zeros(len(angle)), np.full(len(angle), 1.0 / length)))
+    return np.hstack((line, -rates * np.sin(phases), rates * np.cos(phases)))
+
+
+def _harmonics_that_fit(angle: np.ndarray, length: float) -> int:
+    """As many harmonics as angles determine without a large growth of their errors."""
+    highest = min(MOST_ORDERS, int(0.4 * len(angle)))
+    while highest > 1 and np.linalg.cond(_harmonic_matrix(angle, length, highest)) > 30.0:
+        highest -= max(1, highest // 20)
+    return max(1, highest)
+
+
+def _first_cycle(shaft: ShaftAngle, angle: np.ndarray, length: float) -> tuple[float, int]:
+    """Where the first whole cycle begins, and how many there are."""
+    begin = np.ceil(angle[0] / TURN - 1e-9) * TURN if shaft.marked else float(angle[0])
+    return begin, int((angle[-1] - begin) / length + 1e-9)
+
+
+def _too_short(name: str, angle: np.ndarray, length: float) -> str:
+    return (
+        f"{name} spans {np.ptp(angle) / TURN:.3g} revolutions, and a cycle has {length / TURN:.0f} "
+        "(--cycle-revolutions); record at least one whole cycle."
+    )
+
+
+def _without_drift(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The cycles without the slow course of their means, a parabola at most; and that course."""
+    count, samples = rows.shape
+    means = rows.mean(axis=1)
+    if count < 4:
+        return rows, np.full(count, means.mean())
+    slow = np.polynomial.Polynomial.fit(np.arange(count) + 0.5, means, 2)
+    course = slow(np.arange(count * samples) / samples).reshape(count, samples)
+    return rows - course + means.mean(), slow(np.arange(count) + 0.5)
 
 
 def _whole_cycles(
@@ -131,14 +281,11 @@ def _whole_cycles(
 ) -> tuple[float, int, np.ndarray, np.ndarray]:
     """Where the first whole cycle begins, how many there are, and the samples.
 
-    A recording that ends a sample before the next cycle begins holds that cycle: it is closed by the samples of its
-    beginning.
+    A recording that ends a sample before the next cycle begins holds that cycle: it is closed by the
+    samples of its beginning.
     """
-    begin = angle[0]
-    if shaft.marked:
-        begin = np.ceil(angle[0] / TURN - 1e-9) * TURN
+    begin, cycles = _first_cycle(shaft, angle, length)
     step = float(angle[-1] - angle[-2])
-    cycles = int((angle[-1] - begin) / length + 1e-9)
     closed = int((angle[-1] + 1.01 * step - begin) / length + 1e-9)
     if closed > cycles and begin == angle[0]:
         count = min(len(angle), 2 * DEGREE)
@@ -147,10 +294,7 @@ def _whole_cycles(
         keep = np.concatenate(([True], np.diff(np.maximum.accumulate(angle)) > 0.0))
         return begin, closed, angle[keep], values[keep]
     if cycles < 1:
-        raise RecordingError(
-            f"{channel.source}: '{channel.name}' spans {(angle[-1] - angle[0]) / TURN:.3g} revolutions, and a cycle has "
-            f"{length / TURN:.0f} (--cycle-revolutions); record at least one whole cycle."
-        )
+        raise RecordingError(f"{channel.source}: {_too_short(repr(channel.name), angle, length)}")
     return begin, cycles, angle, values
 
 
@@ -158,16 +302,6 @@ def _dense(angle: np.ndarray, wanted: int) -> int:
     """Samples a revolution, a multiple of those that are wanted, that are no sparser than the recording."""
     recorded = TURN / float(np.median(np.diff(angle)))
     return wanted * max(1, int(np.ceil(recorded / wanted - 1e-6)))
-
-
-def _resampled(
-    angle: np.ndarray, values: np.ndarray, begin: float, cycles: int, samples: int, length: float
-) -> np.ndarray:
-    """A row of samples at equal angles for each cycle."""
-    even = begin + np.arange(cycles * samples) * (length / samples)
-    degree = min(DEGREE, 2 * ((len(angle) - 2) // 2) + 1)
-    spline = interpolate.make_interp_spline(angle, values, k=degree)
-    return spline(np.clip(even, angle[0], angle[-1])).reshape(cycles, samples)
 
 
 def _standard_errors(spectra: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -204,41 +338,53 @@ def _kept(amplitudes: np.ndarray, errors: np.ndarray, derivative: bool) -> int:
     return int(harmonics[clear & (harmonics <= MOST_ORDERS)].max(initial=0))
 
 
-def _judged(
-    cycle: MeanCycle, shaft: ShaftAngle, channel: Channel, rows: np.ndarray, begin: float
-) -> MeanCycle:
-    """The cycle with its speeds, and warnings of a wide scatter with its likely cause."""
-    notes, warnings = list(cycle.notes), []
-    left = f"; {cycle.left_out:.3g} revolutions are left out" if cycle.left_out > 1e-3 else ""
+def _notes(cycle: MeanCycle, record: _Record, slow: np.ndarray) -> list[str]:
+    """What was done, in sentences."""
     turns = f"{cycle.cycle_revolutions} revolution{'s' if cycle.cycle_revolutions > 1 else ''}"
-    notes.append(f"{cycle.cycles} whole cycle{'s' if cycle.cycles > 1 else ''} of {turns}{left}.")
-    edges = begin + TURN * cycle.cycle_revolutions * np.arange(cycle.cycles + 1)
-    times = shaft.times(np.clip(edges, shaft.angle[0], shaft.angle[-1]))
-    share = np.diff(np.clip(edges, shaft.angle[0], shaft.angle[-1])) / TURN
-    speeds = 60.0 * share / np.diff(times)
-    mean_speed = 60.0 * share.sum() / (times[-1] - times[0])
-    notes.append(
-        f"resampled onto equal angles by a spline of degree {DEGREE}, orders up to {cycle.orders[-1]:g}; its error "
-        f"is about {100.0 * cycle.resampling_error:.2g} % of the rms."
-    )
+    left = f"; {cycle.left_out:.3g} revolutions are left out" if cycle.left_out > 1e-3 else ""
+    notes = [
+        f"{cycle.cycles} whole cycle{'s' if cycle.cycles > 1 else ''} of {turns}{left}.",
+        f"on equal angles by {record.method}, orders up to {cycle.orders[-1]:g}; the error of that is about "
+        f"{100.0 * cycle.resampling_error:.2g} % of the rms.",
+    ]
+    if np.ptp(slow) > 0.1 * np.std(cycle.values):
+        notes.append(
+            f"its mean drifts from {slow[0]:.6g} to {slow[-1]:.6g} {units.shown(cycle.unit)}; the drift "
+            "is taken out "
+            "of the cycles."
+        )
     if cycle.cycles > 1:
         notes.append(f"the cycles differ from their mean by {100.0 * cycle.scatter:.3g} % of its rms.")
     else:
         notes.append("of a single cycle no scatter is known.")
+    return notes
+
+
+def _warnings(cycle: MeanCycle, record: _Record, rows: np.ndarray, speeds: np.ndarray) -> list[str]:
+    """A wide scatter with its likely cause, a speed that drifts, a signal that is all noise."""
+    found = []
     if cycle.cycles > 1 and cycle.scatter > WIDE_SCATTER:
-        warnings.append(
+        found.append(
             f"the cycles of '{cycle.name}' differ by {100.0 * cycle.scatter:.3g} % of the rms of their mean: "
             + _cause(rows, cycle.cycle_revolutions, speeds)
         )
-    if channel.has_time and cycle.kept == 0:
-        warnings.append(f"no order of '{cycle.name}' stands out of the scatter of its cycles.")
-    return replace(
-        cycle,
-        notes=notes,
-        warnings=warnings,
-        speed_rpm=float(mean_speed),
-        speed_range=(float(speeds.min()), float(speeds.max())),
-    )
+    elif _drift(speeds) > DRIFT:
+        found.append(f"{_drift_words(speeds)}; the cycle is a mean over these speeds.")
+    if cycle.kept == 0:
+        found.append(f"no order of '{cycle.name}' stands out of the scatter of its cycles.")
+    return found
+
+
+def _drift(speeds: np.ndarray) -> float:
+    """By what share a straight line through the speeds of the cycles rises or falls."""
+    if len(speeds) < 3:
+        return 0.0
+    slope = np.polyfit(np.arange(len(speeds)), speeds, 1)[0]
+    return abs(float(slope)) * (len(speeds) - 1) / float(np.mean(speeds))
+
+
+def _drift_words(speeds: np.ndarray) -> str:
+    return f"the speed drifts from {speeds[0]:.5g} to {speeds[-1]:.5g} 1/min"
 
 
 def _cause(rows: np.ndarray, revolutions: int, speeds: np.ndarray) -> str:
@@ -253,23 +399,20 @@ def _cause(rows: np.ndarray, revolutions: int, speeds: np.ndarray) -> str:
         scatter_there = _scatter(record[: count * other * per_turn].reshape(count, -1))
         if scatter_there < 0.5 * scatter:
             return (
-                f"with --cycle-revolutions {other} it would be {100.0 * scatter_there:.3g} %, so that is rather "
+                f"with --cycle-revolutions {other} it would be {100.0 * scatter_there:.3g} %, so that is "
+                "rather "
                 "what a cycle is."
             )
-    slope = np.polyfit(np.arange(len(speeds)), speeds, 1)[0] * (len(speeds) - 1) if len(speeds) > 2 else 0.0
-    drift = max(abs(slope), 0.0) / float(np.mean(speeds))
-    if drift > DRIFT:
-        return (
-            f"the speed drifts from {speeds[0]:.5g} to {speeds[-1]:.5g} 1/min; take a shorter part, or "
-            "recording.py run-up."
-        )
+    if _drift(speeds) > DRIFT:
+        return f"{_drift_words(speeds)}; take a --part, or recording.py run-up."
     slip = _slip(rows)
     if abs(slip) > 0.5:
         return (
-            f"from cycle to cycle they shift by {slip * 360.0 * revolutions / rows.shape[1]:.3g} deg, so the angle "
+            f"from cycle to cycle they shift by {slip * 360.0 * revolutions / rows.shape[1]:.3g} deg, so "
+            "the angle "
             "is not that of the shaft: check --pulses and --missing, or the speed."
         )
-    return "nothing in the speed explains it; noise, another source, or an unsteady engine."
+    return "neither its length nor the speed explains it; it is noise or unsteady, see +- of the orders."
 
 
 def _slip(rows: np.ndarray) -> float:

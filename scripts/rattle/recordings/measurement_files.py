@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import io
 import logging
+import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from functools import wraps
@@ -26,30 +28,18 @@ Reader = Callable[[Path, list[str]], list[Raw]]
 
 
 def _refusing(kind: str) -> Callable[[Reader], Reader]:
-    """A reader whose library meets a damaged file with an exception of any class, or with words of its own."""
+    """A reader of damaged files, too: libraries meet these with any exception and words of their own."""
 
     def decorate(reader: Reader) -> Reader:
         @wraps(reader)
         def read(path: Path, notes: list[str]) -> list[Raw]:
-            logging.disable(logging.CRITICAL)
-            words = io.StringIO()
-            try:
-                with (
-                    warnings.catch_warnings(),
-                    contextlib.redirect_stdout(words),
-                    contextlib.redirect_stderr(words),
-                ):
-                    warnings.simplefilter("ignore")
-                    found = reader(path, notes)
-            except (RecordingError, MemoryError, KeyboardInterrupt):
-                raise
-            except Exception as fault:
-                reason = " ".join(str(fault).split())[:120] or type(fault).__name__
+            with _silence():
+                found, reason = _tried(reader, path, notes)
+                gc.collect()  # half-made objects complain when they are taken away
+            if reason:
                 raise RecordingError(
                     f"{path} cannot be read as {kind}; it is damaged or cut short ({reason})."
-                ) from None
-            finally:
-                logging.disable(logging.NOTSET)
+                )
             if not found:
                 raise RecordingError(f"{path} has no channel of numbers.")
             return found
@@ -57,6 +47,35 @@ def _refusing(kind: str) -> Callable[[Reader], Reader]:
         return read
 
     return decorate
+
+
+def _tried(reader: Reader, path: Path, notes: list[str]) -> tuple[list[Raw], str]:
+    """What a reader finds, or else why it does not."""
+    try:
+        return reader(path, notes), ""
+    except (RecordingError, MemoryError):
+        raise
+    except Exception as fault:
+        return [], " ".join(str(fault).split())[:120].rstrip(" .") or type(fault).__name__
+
+
+@contextlib.contextmanager
+def _silence() -> Iterator[None]:
+    """Nothing of what a library says reaches the user."""
+    words, hook = io.StringIO(), sys.unraisablehook
+    logging.disable(logging.CRITICAL)
+    sys.unraisablehook = lambda _: None
+    try:
+        with (
+            warnings.catch_warnings(),
+            contextlib.redirect_stdout(words),
+            contextlib.redirect_stderr(words),
+        ):
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        sys.unraisablehook = hook
+        logging.disable(logging.NOTSET)
 
 
 @_refusing("MDF")

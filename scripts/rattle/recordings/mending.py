@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from rattle.recordings import time_axis
+from rattle.recordings import time_axis, units
 from rattle.recordings.channels import Channel
 from rattle.recordings.faults import RecordingError
 
@@ -32,7 +32,8 @@ def odd_stretches(values: np.ndarray) -> list[tuple[int, int]]:
     size = np.abs(steps)
     usual = max(float(np.median(size)), float(np.median(np.abs(np.diff(steps)))), _quantum(values))
     limit = ODD_STEP * max(1.4826 * usual, float(np.percentile(size, 90.0)) / 3.0)
-    jumps = np.flatnonzero(size > max(limit, 1e-9 * float(np.max(np.abs(values)))))
+    limit = max(limit, 1e-9 * float(np.max(np.abs(values))))
+    jumps = np.flatnonzero(size > limit)
     longest = max(1, int(LONGEST_SHARE * len(values)))
     found: list[tuple[int, int]] = []
     place = 0
@@ -45,7 +46,10 @@ def odd_stretches(values: np.ndarray) -> list[tuple[int, int]]:
         returns = np.flatnonzero(back & away)
         if returns.size:
             end = int(jumps[place + 1 + returns[0]])
-            found.append((begin + 1, end))
+            # Impacts ring on behind their first steps; behind a drop-out all is as before.
+            beside = np.concatenate((size[max(0, begin - 3) : begin], size[end + 1 : end + 4]))
+            if np.all(beside < 0.5 * limit):
+                found.append((begin + 1, end))
             place += 2 + int(returns[0])
         elif begin < min(longest, 20) and not found:
             found.append((0, begin))
@@ -85,7 +89,7 @@ def mended(channel: Channel, *, mend: bool, notes: list[str], trend: np.ndarray 
         around = [finite[place] for place in (begin - 1, end + 1) if 0 <= place < len(finite)]
         words = " and ".join(f"{shown[place]:.6g}" for place in around)
         fate = "replaced." if mend else "a spike or drop-out; --mend replaces it."
-        value = f"{shown[at[0]]:.6g} {channel.unit}".rstrip()
+        value = f"{shown[at[0]]:.6g} {units.shown(channel.unit)}".rstrip()
         notes.append(f"'{channel.name}' is {value} at {span}, its neighbours {words}: {fate}")
     if len(odd) > REPORTED:
         notes.append(f"'{channel.name}' has {len(odd)} of these in all, {count} samples.")

@@ -1,4 +1,4 @@
-"""Options that every task on recordings takes: files, units, the part, and what tells the angle of a shaft."""
+"""Options that every task on recordings takes: files, units, the part, and the angle of the shaft."""
 
 from __future__ import annotations
 
@@ -98,7 +98,8 @@ def _within(channel: Channel, begin: float, end: float) -> Channel:
     inside = (channel.time >= begin) & (channel.time <= end)
     if np.sum(inside) < 4:
         raise RecordingError(
-            f"{channel.source}: --part leaves {np.sum(inside)} samples of '{channel.name}', which was recorded from "
+            f"{channel.source}: --part leaves {np.sum(inside)} samples of '{channel.name}', which was "
+            "recorded from "
             f"{channel.time[0]:.6g} to {channel.time[-1]:.6g} s."
         )
     return replace(channel, time=channel.time[inside], values=channel.values[inside])

@@ -9,7 +9,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Raw:
-    """A channel as its file has it: time [s] (None: the file has none), and in text the line of each sample."""
+    """A channel as its file has it: time [s] (None: it has none), and in text the line of each sample."""
 
     name: str
     unit: str

@@ -9,7 +9,6 @@ import numpy as np
 
 from rattle.keys import key_table
 from rattle.recordings import units
-from rattle.recordings.angle import ShaftAngle
 from rattle.recordings.channels import Channel
 from rattle.recordings.cycles import MeanCycle
 from rattle.recordings.faults import RecordingError
@@ -35,6 +34,10 @@ ACCELERATION = Taken("shaft", "rad/s2", "angular_acceleration [rad/s2]", "angula
 FORCE = Taken("load", "N", "force_N")
 
 
+# Units of what benches record and rattle does not take.
+OTHERS = ("kg", "V", "A", "m", "m/s", "s", "K", "Pa", "W", "J", "l/min", "%", "1")
+
+
 def taken(channel: Channel, radius: float | None, notes: list[str]) -> tuple[Channel, Taken]:
     """The channel in the unit of what rattle takes of it; `radius` [m] turns torques and accelerations."""
     for quantity in (SPEED, ACCELERATION, FORCE):
@@ -47,31 +50,31 @@ def taken(channel: Channel, radius: float | None, notes: list[str]) -> tuple[Cha
         if units.fits(channel.unit, unit):
             if radius is None:
                 raise RecordingError(
-                    f"'{channel.name}' is {words} in {channel.unit}; rattle takes {quantity.unit}: give the radius "
-                    "of it by --radius, in m (of a torque on the loose gear r_b2 cos beta_b, which --check prints)."
+                    f"'{channel.name}' is {words} in {channel.unit}; rattle takes {quantity.unit}: give "
+                    "the radius "
+                    "of it by --radius, in m (of a torque on the loose gear r_b2 cos beta_b, which "
+                    "--check prints)."
                 )
             scaled = _converted(channel, replace(quantity, unit=unit), 1.0 / radius, notes)
             notes.append(f"divided by the radius of {radius:g} m it is in {quantity.unit}.")
             return replace(scaled, unit=quantity.unit), quantity
-    factor = units.factor(
-        channel.unit, "N", channel.name
-    )  # which says that it has no unit, or none that is known
-    raise AssertionError(f"{channel.unit} is {factor} N and was not taken")
+    if channel.unit and any(units.fits(channel.unit, other) for other in OTHERS):
+        raise RecordingError(
+            f"'{channel.name}' is in {units.shown(channel.unit)}; rattle takes the speed of a shaft "
+            "(1/min, rad/s, "
+            "Hz), its angular "
+            "acceleration (rad/s2), its angle (deg), or a force (N): choose another --signal, or give its "
+            "--unit."
+        )
+    units.factor(channel.unit, SPEED.unit, channel.name)  # says that its unit is missing or not known
+    raise AssertionError(channel.unit)
 
 
 def _converted(channel: Channel, quantity: Taken, scale: float, notes: list[str]) -> Channel:
     factor = units.factor(channel.unit, quantity.unit, channel.name)
-    shown = "1/min" if quantity.unit == "rpm" else quantity.unit
-    same = "as recorded" if factor == 1.0 else f"times {factor:.6g}, from {channel.unit}"
-    notes.append(f"'{channel.name}' is in {shown}, {same}.")
+    same = "as recorded" if factor == 1.0 else f"times {factor:.6g}, from {units.shown(channel.unit)}"
+    notes.append(f"'{channel.name}' is in {units.shown(quantity.unit)}, {same}.")
     return replace(channel, unit=quantity.unit, values=channel.values * (factor * scale))
-
-
-def speed_of(shaft: ShaftAngle, name: str, source: str, notes: list[str]) -> Channel:
-    """The speed of the shaft from its angle."""
-    notes.append(f"the signal is the speed of the shaft, from the slope of its angle by '{name}'.")
-    values = shaft.speed(shaft.angle) * (30.0 / np.pi)
-    return Channel(f"speed by {name}", "rpm", shaft.time, values, source)
 
 
 def write_csv(path: Path, cycle: MeanCycle, quantity: Taken) -> None:

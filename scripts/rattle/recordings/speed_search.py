@@ -32,7 +32,8 @@ def steady_angle(channel: Channel, near_rpm: float, cycle_revolutions: int) -> S
     base = near_rpm / 60.0 / cycle_revolutions
     if span * base < 3.0:
         raise RecordingError(
-            f"{channel.source}: {span:.4g} s are {span * base:.2g} cycles at {near_rpm:g} 1/min; to find the speed "
+            f"{channel.source}: {span:.4g} s are {span * base:.2g} cycles at {near_rpm:g} 1/min; to find "
+            "the speed "
             "from the signal itself takes at least three. Record a tacho."
         )
     usual = float(np.median(np.diff(time)))
@@ -71,12 +72,14 @@ def steady_angle(channel: Channel, near_rpm: float, cycle_revolutions: int) -> S
     share = 2.0 * -found.fun / (np.sum(weighted**2) * len(even)) * 1.5
     if share < LEAST_COHERENCE or not (1.0 - REACH) * base < frequency < (1.0 + REACH) * base:
         raise RecordingError(
-            f"{channel.source}: within a tenth of {near_rpm:g} 1/min no speed gathers the power of '{channel.name}' in "
+            f"{channel.source}: within a tenth of {near_rpm:g} 1/min no speed gathers the power of "
+            f"'{channel.name}' in "
             f"orders ({100.0 * share:.2g} % of it at best); give --speed-near nearer, or record a tacho."
         )
     speed = 60.0 * frequency * cycle_revolutions
     notes = [
-        f"the speed is measured from '{channel.name}': {speed:.6g} 1/min gathers {100.0 * min(share, 1.0):.3g} % of its "
+        f"the speed is measured from '{channel.name}': {speed:.6g} 1/min gathers "
+        f"{100.0 * min(share, 1.0):.3g} % of its "
         "power in orders; it is taken as constant."
     ]
     angle = TURN * speed / 60.0 * (channel.time - channel.time[0])

@@ -1,4 +1,4 @@
-"""Recordings in text: separator, decimal mark, heads, units and comments are found from the lines themselves."""
+"""Recordings in text: separator, decimal mark, heads, units and comments follow from the lines."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -21,10 +22,12 @@ DIALECTS = ((";", ","), (";", "."), ("\t", ","), ("\t", "."), (",", "."), ("|", 
 WORDS = {"\t": "tabs", " ": "blanks", ";": "semicolons", ",": "commas", "|": "bars"}
 COMMENT = ("#", "!", "%", "//")
 GAPS = ("", "nan", "na", "n/a", "-", "--", "null", "none", "#n/a", "#nv", "invalid")
-TIME_NAMES = re.compile(r"^(t|time|times|timestamp|zeit|uhrzeit|zeitstempel)\b|time\b|zeit\b", re.IGNORECASE)
+TIME_NAMES = re.compile(r"(^(t|times|timestamps?|zeitstempel)|time|zeit)(?![a-z])", re.IGNORECASE)
 CLOCK = re.compile(r"^(\d{4}-\d\d?-\d\d?[ T]|\d\d?[./]\d\d?[./]\d{2,4} )?\d\d?:\d\d:\d\d([.,]\d+)?Z?$")
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0}
 SAMPLE = 400
+# No quantity of a bench is as large.
+LARGEST = 1e30
 
 
 @dataclass(frozen=True)
@@ -125,11 +128,12 @@ def _layout(path: Path, lines: list[str]) -> Layout:
     if best is None:
         raise RecordingError(f"{path} has no line of numbers.")
     layout = best[2]
-    for first, line in enumerate(lines):
-        if len(cells := _without_end(layout.split(line))) == layout.columns and _is_data(
-            cells, layout.decimal
-        ):
-            break
+    first = next(
+        place
+        for place, line in enumerate(lines)
+        if len(cells := _without_end(layout.split(line))) == layout.columns
+        and _is_data(cells, layout.decimal)
+    )
     if layout.separator == "," and first > 0:
         heads = len(_without_end(layout.split(lines[first - 1])))
         if layout.columns == 2 * heads:
@@ -240,7 +244,6 @@ def _table(
             keep_default_na=False,
             na_values=[*GAPS, *(word.upper() for word in GAPS), "NaN", "None", "Null"],
             low_memory=False,
-            float_precision="round_trip",
             **options,
         )
     except (ValueError, pandas.errors.ParserError) as fault:
@@ -262,23 +265,27 @@ def _table(
     ]
 
 
-def _column(path: Path, cells: object, name: str, lines: np.ndarray, decimal: str) -> np.ndarray:
+def _column(path: Path, cells: Any, name: str, lines: np.ndarray, decimal: str) -> np.ndarray:
+    """The numbers of a column; a cell that is none, or is not finite, is refused with its line."""
     pandas = library("pandas")
-    if cells.dtype.kind in "fiu":
-        return cells.to_numpy(dtype=float)
-    words = cells.fillna("").astype(str).str.strip()
-    if words.str.match(CLOCK).mean() > 0.9:
+    words = cells.fillna("").astype(str).str.strip() if cells.dtype.kind not in "fiu" else None
+    if words is None:
+        values = cells.to_numpy(dtype=float)
+        strange = np.abs(values) > LARGEST
+    elif words.str.match(CLOCK).mean() > 0.9:
         stamps = pandas.to_datetime(
             words.str.replace(",", "."), errors="coerce", format="mixed", dayfirst=True
         )
         return (stamps - stamps.dropna().iloc[0]).dt.total_seconds().to_numpy(dtype=float)
-    plain = words.str.replace(",", ".") if decimal == "," else words
-    values = pandas.to_numeric(plain.where(plain != "", "nan"), errors="coerce").to_numpy(dtype=float)
-    strange = np.isnan(values) & ~words.str.lower().isin(GAPS).to_numpy()
+    else:
+        plain = words.str.replace(",", ".") if decimal == "," else words
+        values = pandas.to_numeric(plain.where(plain != "", "nan"), errors="coerce").to_numpy(dtype=float)
+        strange = np.isnan(values) & ~words.str.lower().isin(GAPS).to_numpy() | (np.abs(values) > LARGEST)
     if strange.any():
         at = int(np.argmax(strange))
+        cell = str(cells.iloc[at]).strip()[:40]
         raise RecordingError(
-            f"{path}, line {lines[at]}: '{words.iloc[at][:40]}' in column '{name}' is no number."
+            f"{path}, line {lines[at]}: '{cell}' in column '{name}' is no number of a bench."
         )
     return values
 

@@ -118,7 +118,7 @@ def _last_digit(time: np.ndarray) -> float:
 
 
 def gaps(time: np.ndarray, finite: np.ndarray) -> list[tuple[float, float]]:
-    """Begin and end [s] of each stretch without a finite value, from the last before it to the first behind."""
+    """Times [s] of the last value before and the first behind each stretch without a finite value."""
     there = time[finite]
     if len(there) < 3:
         return []

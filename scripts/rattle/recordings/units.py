@@ -53,7 +53,8 @@ SAME = {
     "hz": "Hz",
     "khz": "kHz",
 }
-# Words that a pint unit must be spelt by, where what is converted to is a speed of rotation or an acceleration.
+# Words that a pint unit must be spelt by, where what is converted to is a speed of rotation or an
+# acceleration.
 ROTATING = {
     "Hz": "revolution/s",
     "kHz": "1000*revolution/s",
@@ -101,6 +102,11 @@ def plain(text: str) -> str:
     return SAME.get(word.lower(), word)
 
 
+def shown(unit: str) -> str:
+    """A unit as the rest of the program writes it."""
+    return "1/min" if unit == "rpm" else unit
+
+
 def is_known(text: str) -> bool:
     """Whether a cell of a head may be a unit; an empty one is none."""
     word = plain(text)
@@ -122,7 +128,7 @@ def factor(unit: str, target: str, name: str = "the channel") -> float:
     unit, target = plain(unit), plain(target)
     if not unit:
         raise RecordingError(
-            f"'{name}' has no unit in its file; say it by --unit '{name}={target}', or what else it is."
+            f"'{name}' has no unit in its file; say it by --unit '{name}={target}' or what it is."
         )
     if unit == target:
         return 1.0
