@@ -9,7 +9,7 @@ module input_entry
    use namelist_text, only: assignment_t, most_elements
    use number_text, only: read_strict_integer, read_strict_real
    use scene_types, only: numbers_t
-   use text, only: integer_text, logical_text, lower, printable, quoted, quoted_words, real_text
+   use text, only: counted, integer_text, logical_text, lower, printable, quoted, quoted_words, real_text
    use word_list, only: split_words, word_position, word_t
    implicit none(type, external)
    private
@@ -125,8 +125,7 @@ contains
       entry%line = assignment%line
       entry%faulty = message /= ''
       if (entry%faulty) return
-      ! A list without an index is a whole one.
-      if (overriding .and. size(assignment%subscripts) == 0) call shorten(entry%elements, last)
+      if (overriding) call forget_behind(assignment%subscripts, last, entry%elements)
       do i = 1, last
          if (.not. allocated(assignment%values(i)%text)) cycle
          call find_element(assignment%subscripts, i, row, column)
@@ -162,7 +161,7 @@ contains
          limit = merge(most_words, most_elements, key%kind == list_kind)
          do i = 1, count
             call find_element(assignment%subscripts, i, row, column)
-            if (row == 0) message = integer_text(count)//' values are given to '//integer_text(i - 1)
+            if (row == 0) message = integer_text(count)//' values are given to '//counted(i - 1, 'element')
             if (row > limit .or. room(entry%elements, row, column) > 8_int64*most_elements) &
                message = 'at most '//integer_text(limit)//' elements are allowed'
             if (message /= '') return
@@ -202,16 +201,23 @@ contains
       call move_alloc(grown, elements)
    end subroutine make_room
 
-   !> Forget the elements of a list behind the first ones.
-   pure subroutine shorten(elements, length)
-      type(value_t), intent(inout) :: elements(:, :)
+   !> Where a whole list or column is replaced, forget what it had behind the new values.
+   pure subroutine forget_behind(subscripts, length, elements)
+      type(subscript_t), intent(in) :: subscripts(:)
+      !> Of the new list
       integer, intent(in) :: length
-      integer :: i
+      type(value_t), intent(inout) :: elements(:, :)
+      integer :: i, row, column
 
-      do i = length + 1, size(elements, 1)
-         if (allocated(elements(i, 1)%text)) deallocate (elements(i, 1)%text)
+      if (size(subscripts) > 0) then
+         if (.not. subscripts(1)%whole()) return
+      end if
+      call find_element(subscripts, length, row, column)
+      if (column > size(elements, 2)) return
+      do i = row + 1, size(elements, 1)
+         if (allocated(elements(i, column)%text)) deallocate (elements(i, column)%text)
       end do
-   end subroutine shorten
+   end subroutine forget_behind
 
    !> That an element of an assignment was set before; empty if none was.
    pure function set_already(assignment, entry, count) result(message)

@@ -22,6 +22,7 @@ module namelist_scanner
       integer :: stride = 1
       logical :: single = .false.
    contains
+      procedure :: whole
       procedure :: extent
       procedure :: element
    end type subscript_t
@@ -41,6 +42,7 @@ module namelist_scanner
       procedure :: step
       procedure :: skip_blanks
       procedure :: skip_line
+      procedure :: skip_fault
       procedure :: take_stray
       procedure :: take_word
       procedure :: take_value
@@ -136,7 +138,7 @@ contains
    end subroutine take_quoted
 
    !> Subscripts in parentheses after a key: (3), (1:2), (2:), (1:5:2), or two of them with a comma between.
-   subroutine take_subscripts(self, subscripts, text, sound)
+   subroutine take_subscripts(self, subscripts, text, sound, closed)
       class(scanner_t), intent(inout) :: self
       !> One for each dimension
       type(subscript_t), allocatable, intent(out) :: subscripts(:)
@@ -144,16 +146,19 @@ contains
       character(:), allocatable, intent(out) :: text
       !> Whether all are elements that an array can have
       logical, intent(out) :: sound
+      !> Whether the parenthesis was closed; if not, the scanner stands where it cannot be
+      logical, intent(out) :: closed
       integer :: comma
 
       text = ''
+      sound = .false.
       allocate (subscripts(0))
       do
          if (.not. is_blank(self%letter())) text = text//self%letter()
          if (self%letter() == line_feed) self%line = self%line + 1
          call self%step()
-         sound = scan(self%letter(), '=/&$!'//"'"//'"') == 0 .and. .not. self%ended()
-         if (.not. sound) return
+         closed = scan(self%letter(), '=/&$!'//"'"//'"') == 0 .and. .not. self%ended()
+         if (.not. closed) return
          if (self%letter() == ')') exit
       end do
       call self%step()
@@ -188,6 +193,13 @@ contains
       sound = sound .and. merge(numbers(2) >= numbers(1), numbers(2) <= numbers(1), numbers(3) > 0)
       subscript = subscript_t(merge(numbers(1), 0, sound), numbers(2), numbers(3), scan(text, ':') == 0)
    end function subscript_of
+
+   !> Whether it is (:), all elements that there are.
+   pure logical function whole(self)
+      class(subscript_t), intent(in) :: self
+
+      whole = self%first == 1 .and. self%last == huge(1) .and. self%stride == 1 .and. .not. self%single
+   end function whole
 
    !> How many elements a subscript has.
    pure integer function extent(self)
@@ -289,6 +301,16 @@ contains
          call self%step()
       end do
    end subroutine skip_line
+
+   !> Pass over what is no assignment: up to the line end or the end of its group.
+   subroutine skip_fault(self)
+      class(scanner_t), intent(inout) :: self
+
+      do while (.not. self%at_sign())
+         if (self%letter() == line_feed .or. (self%letter() == '/' .and. .not. self%word_follows())) return
+         call self%step()
+      end do
+   end subroutine skip_fault
 
    !> Text outside a group, up to its line end or the sign before one of the given words.
    function take_stray(self, is_group) result(text)

@@ -67,12 +67,12 @@ contains
 
       allocate (assignments(64))
       used = 0
-      if (len_trim(content) == 0) then
+      text = with_line_feeds(content)
+      if (len_trim(text) == 0) then
          assignments = assignments(:0)
          call faults%add(file, 0, '', '', 'the file is empty; a scene needs at least its required groups')
          return
       end if
-      text = with_line_feeds(content)
       call check_characters(text, file, first_line, faults, sound)
       if (.not. sound) then
          assignments = assignments(:0)
@@ -221,7 +221,7 @@ contains
       character(*), intent(in) :: group
       type(assignment_t), intent(out) :: assignment
       type(fault_list_t), intent(inout) :: faults
-      logical :: sound
+      logical :: sound, closed
 
       assignment%sound = .false.
       assignment%group = group
@@ -232,27 +232,27 @@ contains
       if (len(assignment%key) == 0) then
          call faults%add(file, scanner%line, group, '', &
                          "unexpected '"//scanner%letter()//"'; a key must stand here, as in key = value")
-         call scanner%skip_line()
+         call scanner%step()
+         call scanner%skip_fault()
          return
       end if
       call scanner%skip_blanks()
+      sound = .true.
+      closed = .true.
       if (scanner%letter() == '(') then
-         call scanner%take_subscripts(assignment%subscripts, assignment%subscript_text, sound)
-         if (.not. sound) then
-            call faults%add(file, assignment%line, group, assignment%key, 'the index in parentheses must be a positive integer '// &
-                            'or a section such as (1:2), (2:) or (1:5:2)')
-            call scanner%skip_line()
-            return
-         end if
-         call scanner%skip_blanks()
+         call scanner%take_subscripts(assignment%subscripts, assignment%subscript_text, sound, closed)
+         if (.not. sound) call faults%add(file, assignment%line, group, assignment%key, 'the index in parentheses must be '// &
+                                          'a positive integer or a section such as (1:2), (2:) or (1:5:2)')
+         if (closed) call scanner%skip_blanks()
       end if
-      if (scanner%letter() /= '=') then
-         call faults%add(file, assignment%line, group, assignment%key, 'an equals sign must follow the key')
-         if (scanner%line == assignment%line) call scanner%skip_line()
+      if (.not. closed .or. scanner%letter() /= '=') then
+         if (sound) call faults%add(file, assignment%line, group, assignment%key, 'an equals sign must follow the key')
+         if (scanner%line == assignment%line .or. .not. closed) call scanner%skip_fault()
          return
       end if
       call scanner%step()
       call scan_values(scanner, file, assignment, faults)
+      assignment%sound = assignment%sound .and. sound
    end subroutine scan_assignment
 
    !> Values up to the next key, slash or group.
