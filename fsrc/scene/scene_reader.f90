@@ -150,6 +150,7 @@ contains
          end if
          call input%set_all(set, overrides(i)%source, .true.)
       end do
+      call input%close_lists()
    end subroutine set_all_keys
 
    !> Put the values of an input without a fault into its scene, which has its names already.
@@ -354,6 +355,7 @@ contains
             body = body//'   name = '//quoted(name)//new_line('a')
          else if (keys(i)%kind == table_kind) then
             do column = 1, size(input%entries(i)%columns)
+               if (size(input%entries(i)%columns(column)%numbers) == 0) cycle
                body = body//'   '//trim(keys(i)%name)//'(:, '//integer_text(column)//') = '// &
                       numbers_text(input%entries(i)%columns(column)%numbers)//new_line('a')
             end do
