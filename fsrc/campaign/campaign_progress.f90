@@ -1,6 +1,5 @@
 !> Progress of a campaign: one line on a terminal, a line every ten seconds at least elsewhere, and NAME.progress.nml for watchers.
 module campaign_progress
-   use, intrinsic :: iso_fortran_env, only: output_unit
    use clock, only: wall_seconds
    use errors, only: error_t
    use file_system, only: is_terminal
@@ -10,6 +9,7 @@ module campaign_progress
    use row_counts, only: count_done, count_failed, count_tested, count_uncertain, counts_of_rows
    use summary_file, only: summary_t
    use text, only: integer_text, short_text
+   use text_output, only: show_on_terminal
    implicit none(type, external)
    private
 
@@ -107,14 +107,12 @@ contains
       class(campaign_progress_t), intent(inout) :: self
       type(log_t), intent(in) :: log
       real(dp), intent(in) :: now
-      integer :: ignored
 
       self%last_report = now
       if (.not. self%on_terminal) then
          call log%line('  '//words(self, now))
       else if (.not. self%quiet) then
-         write (output_unit, '(a)', advance='no', iostat=ignored) achar(13)//'  '//words(self, now)//'   '
-         flush (output_unit, iostat=ignored)
+         call show_on_terminal(achar(13)//'  '//words(self, now)//'   ')
       end if
    end subroutine report_line
 
@@ -133,10 +131,8 @@ contains
       class(campaign_progress_t), intent(inout) :: self
       !> Log of the campaign
       type(log_t), intent(in) :: log
-      integer :: ignored
 
-      if (self%on_terminal .and. .not. self%quiet) &
-         write (output_unit, '(a)', advance='no', iostat=ignored) achar(13)//repeat(' ', 100)//achar(13)
+      if (self%on_terminal .and. .not. self%quiet) call show_on_terminal(achar(13)//repeat(' ', 100)//achar(13))
       ! The counts are those of all ranks now.
       self%done_elsewhere = 0_int64
       call write_progress(self, wall_seconds())

@@ -1,5 +1,6 @@
 !> The fields of a CSV file one after the other, read in blocks.
 module csv_fields
+   use errors, only: error_words, is_shortage
    use file_system, only: is_directory, path_exists
    use kinds, only: int64
    use signals, only: must_stop
@@ -77,6 +78,7 @@ contains
             iostat=stat)
       if (stat /= 0) then
          message = 'it may not be read'
+         if (is_shortage(stat)) message = 'it cannot be opened: '//error_words(stat)
          return
       end if
       call self%start(bytes)

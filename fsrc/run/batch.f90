@@ -1,7 +1,6 @@
 !> All scenes of a call: everything is checked before anything runs.
 module batch
    use automatic_model, only: choose_model, closure_instead
-   use, intrinsic :: iso_fortran_env, only: error_unit
    use command_line, only: command_t
    use engine, only: checkpoint_t
    use earlier_files, only: check_earlier_files
@@ -23,7 +22,7 @@ module batch
    use scene_types, only: method_newmark, model_resolved, scene_t, task_film, task_motion, task_sweep
    use signals, only: caught_signal
    use text, only: integer_text
-   use text_output, only: end_turn, lock_texts, put_line, put_text, share_output, speak_for, unlock_texts
+   use text_output, only: end_turn, lock_texts, put_error_line, put_line, put_text, share_output, speak_for, unlock_texts
    use word_list, only: word_t
    use, intrinsic :: omp_lib, only: omp_get_max_threads
    implicit none(type, external)
@@ -198,7 +197,7 @@ contains
          end if
          in_trouble = has_trouble(outcome)
          if (allocated(outcome%error)) then
-            write (error_unit, '(a)') outcome%error%message
+            call put_error_line(outcome%error%message)
             exit_code = outcome%error%exit_code
          else if (in_trouble) then
             call print_faults(outcome%faults)
@@ -401,9 +400,9 @@ contains
 
       do i = 1, faults%count()
          if (any([(faults%sentence(j) == faults%sentence(i), j=1, i - 1)])) cycle
-         write (error_unit, '(a)') faults%sentence(i)
+         call put_error_line(faults%sentence(i))
       end do
-      if (faults%not_kept() > 0) write (error_unit, '(a)') 'and '//integer_text(faults%not_kept())//' faults more'
+      if (faults%not_kept() > 0) call put_error_line('and '//integer_text(faults%not_kept())//' faults more')
    end subroutine print_faults
 
 end module batch
