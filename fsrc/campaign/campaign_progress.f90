@@ -23,6 +23,8 @@ module campaign_progress
       integer(int64) :: counts(counts_of_rows) = 0_int64
       !> Scenes that other ranks have solved
       integer(int64), private :: done_elsewhere = 0_int64
+      !> Scenes that were looked at, as long as none is solved
+      integer(int64) :: looked_at = 0_int64
       logical :: quiet = .false.
       character(:), allocatable :: path
       logical, private :: on_terminal = .false.
@@ -52,6 +54,7 @@ contains
       self%path = path
       self%scenes = scenes
       self%done_before = done_before
+      self%looked_at = 0_int64
       self%quiet = quiet
       self%on_terminal = is_terminal()
       self%started = wall_seconds()
@@ -148,6 +151,12 @@ contains
       real(dp) :: rate
 
       done = self%counts(count_done) + self%done_elsewhere
+      if (self%looked_at > 0_int64) then
+         rate = real(self%looked_at, dp)/max(now - self%started, 1.0e-9_dp)
+         line = integer_text(self%looked_at)//' of '//integer_text(self%scenes)//' scenes looked at, none solved yet; '// &
+                short_text(real(self%scenes - self%looked_at, dp)/rate, 2)//' s left to look'
+         return
+      end if
       rate = real(done, dp)/max(now - self%started, 1.0e-9_dp)
       line = integer_text(self%done_before + done)//' of '//integer_text(self%scenes)//' scenes, '// &
              short_text(rate, 3)//' a second'
@@ -167,6 +176,7 @@ contains
       self%written = now
       call summary%add('scenes', self%scenes)
       call summary%add('scenes_done', self%done_before + self%counts(count_done) + self%done_elsewhere)
+      if (self%looked_at > 0_int64) call summary%add('scenes_looked_at', self%looked_at)
       call summary%add('scenes_failed', self%counts(count_failed))
       call summary%add('seconds', now - self%started)
       call summary%add('scenes_per_second', real(self%counts(count_done) + self%done_elsewhere, dp)/ &
