@@ -1,7 +1,7 @@
 !> From the text of an input to a scene: values are typed by the key table, checked together, and put
 !> into the types group by group if there was no fault. All faults of an input are reported at once.
 module scene_reader
-   use errors, only: fault_list_t, last_error, not_permitted
+   use errors, only: error_t, error_words, exit_system, fault_list_t, is_shortage, last_error, not_permitted, raise
    use file_system, only: read_whole_file
    use input_entry, only: numbers_text, place_of, value_text
    use input_key, only: name_limit, table_kind
@@ -54,6 +54,7 @@ contains
       type(fault_list_t), intent(inout) :: faults
       type(assignment_t), allocatable :: assignments(:)
       type(scene_input_t), allocatable :: inputs(:)
+      type(error_t), allocatable :: error
       character(:), allocatable :: content, file
       integer :: stat, before, i
       logical :: is_input
@@ -67,6 +68,9 @@ contains
       case (1)
          if (last_error() == not_permitted) then
             call faults%add(file, 0, '', '', 'it may not be read')
+         else if (is_shortage(last_error())) then
+            call raise(error, exit_system, 'it cannot be opened: '//error_words(last_error()))
+            call faults%add_error(file, '', '', error)
          else
             call faults%add(file, 0, '', '', 'there is no such file')
          end if
