@@ -8,10 +8,12 @@ module completed_scene
    use key_table, only: find_key, keys
    use kinds, only: dp
    use loose_gear_drag, only: gap_is_turbulent
+   use mistaken_units, only: mistaken_words
+   use odd_teeth, only: warnings_of_teeth
    use oil_data, only: kinematic_viscosity, least_viscosity_meant
    use scene_rules, only: rule_t
-   use scene_types, only: drag_computed, drag_given, scene_t, set_number, task_sweep
-   use text, only: short_text
+   use scene_types, only: drag_computed, drag_given, scene_t, set_number, task_sweep, task_threshold
+   use text, only: real_text, short_text
    use word_list, only: word_t
    implicit none(type, external)
    private
@@ -31,22 +33,47 @@ contains
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
       type(rule_t), allocatable :: broken(:)
-      integer :: i, dot
+      integer :: i, dot, before
 
+      before = faults%count()
       if (.not. (scene%gear%given .or. scene%oil%given)) return
       call derive(scene)
       allocate (broken, source=derived_rules(scene))
+      if (size(broken) > 0 .and. size(scene%mistaken) > 0) call add_mistaken_units(scene, broken, faults)
       do i = 1, size(broken)
          associate (key => broken(i)%keys)
             dot = index(key, '.')
             call faults%add(scene%source, scene%lines(find_key(key)), key(:dot - 1), trim(key(dot + 1:)), trim(broken(i)%sentence))
          end associate
       end do
-      if (size(broken) > 0) return
+      if (faults%count() > before) return
       if (scene%task == task_sweep) call check_sweep(scene, faults)
       if (scene%oil%given) call tell_oil(scene)
       if (scene%gear%given) call tell_gear(scene)
+      if (scene%gear%given) call tell_teeth(scene)
    end subroutine complete_scene
+
+   !> Units come before rules: numbers that were surely meant in another unit are refused, and of the rules only those remain that
+   !> the scene breaks in these units, too.
+   subroutine add_mistaken_units(scene, broken, faults)
+      type(scene_t), intent(in) :: scene
+      type(rule_t), allocatable, intent(inout) :: broken(:)
+      type(fault_list_t), intent(inout) :: faults
+      type(rule_t), allocatable :: still_broken(:)
+      type(scene_t) :: meant
+      integer :: i
+
+      meant = scene
+      do i = 1, size(scene%mistaken)
+         associate (number => scene%mistaken(i), key => keys(scene%mistaken(i)%key))
+            call faults%add(number%source, number%line, trim(key%group), trim(key%name), number%sentence)
+            call set_number(meant, key%group, key%name, number%meant)
+         end associate
+      end do
+      call derive(meant)
+      allocate (still_broken, source=derived_rules(meant))
+      broken = pack(broken, [(any(still_broken%keys == broken(i)%keys), i=1, size(broken))])
+   end subroutine add_mistaken_units
 
    !> The scenes at all values of a sweep can be derived.
    subroutine check_sweep(scene, faults)
@@ -54,6 +81,7 @@ contains
       type(fault_list_t), intent(inout) :: faults
       type(rule_t), allocatable :: broken(:)
       type(scene_t) :: swept
+      character(:), allocatable :: sentence
       integer :: i
 
       swept = scene
@@ -64,8 +92,10 @@ contains
             if (allocated(broken)) deallocate (broken)
             allocate (broken, source=derived_rules(swept))
             if (size(broken) == 0) cycle
+            sentence = mistaken_words(keys(sweep%key), sweep%values(i))
+            if (len(sentence) == 0) sentence = trim(broken(1)%sentence)
             call faults%add(scene%source, 0, 'sweep', trim(merge('last ', 'first', i == sweep%outward)), &
-                            'at '//short_text(sweep%values(i), 7)//': '//trim(broken(1)%sentence))
+                            'at '//short_text(sweep%values(i), 7)//': '//sentence)
             exit
          end do
       end associate
@@ -77,7 +107,7 @@ contains
       real(dp) :: thin, ends(2)
       real(dp), parameter :: low = 40.0_dp, high = 100.0_dp
 
-      ends = temperatures(scene)
+      ends = ends_of(scene, 'oil.temperature_celsius', scene%oil%temperature_celsius)
       if (ends(1) < low - farthest_beyond_data) &
          call warn(ends(1), low - ends(1), ', and near its pour point an oil leaves that line')
       if (ends(2) > high + farthest_beyond_data) call warn(ends(2), ends(2) - high, '')
@@ -105,20 +135,26 @@ contains
 
    end subroutine tell_oil
 
-   !> Lowest and highest temperature of the oil in what an input asks for [degC].
-   pure function temperatures(scene) result(ends)
+   !> Lowest and highest value of a key in what an input asks for.
+   pure function ends_of(scene, name, value) result(ends)
       type(scene_t), intent(in) :: scene
+      !> The key, as group.name
+      character(*), intent(in) :: name
+      !> Its value in the input
+      real(dp), intent(in) :: value
       real(dp) :: ends(2)
-      integer :: i, key
+      integer :: i
 
-      ends = scene%oil%temperature_celsius
-      key = find_key('oil.temperature_celsius')
+      ends = value
       if (scene%task == task_sweep) then
-         if (scene%sweep%key == key) ends = [minval(scene%sweep%values), maxval(scene%sweep%values)]
+         if (scene%sweep%key == find_key(name)) ends = [minval(scene%sweep%values), maxval(scene%sweep%values)]
+      else if (scene%task == task_threshold) then
+         if (scene%threshold%key == name) ends = [min(scene%threshold%first, scene%threshold%last), &
+                                                  max(scene%threshold%first, scene%threshold%last)]
       end if
       if (.not. allocated(scene%campaign%vary)) return
       do i = 1, size(scene%campaign%vary)
-         if (scene%campaign%vary(i)%text /= 'oil.temperature_celsius') cycle
+         if (scene%campaign%vary(i)%text /= name) cycle
          associate (campaign => scene%campaign)
             if (i <= min(size(campaign%first), size(campaign%last))) &
                ends = [min(campaign%first(i), campaign%last(i)), max(campaign%first(i), campaign%last(i))]
@@ -127,7 +163,36 @@ contains
                ends = [minval(campaign%values(i)%numbers), maxval(campaign%values(i)%numbers)]
          end associate
       end do
-   end function temperatures
+   end function ends_of
+
+   !> Warnings of the teeth of a pair, and of those at both ends of what is varied.
+   subroutine tell_teeth(scene)
+      type(scene_t), intent(inout) :: scene
+      character(*), parameter :: names(7) = [character(18) :: 'normal_module', 'pressure_angle_deg', 'helix_angle_deg', &
+                                             'centre_distance', 'contact_position', 'tip_diameter_1', 'tip_diameter_2']
+      type(word_t), allocatable :: lines(:)
+      type(scene_t) :: varied
+      real(dp) :: values(size(names)), ends(2)
+      integer :: i, j
+
+      allocate (lines, source=warnings_of_teeth(scene, ''))
+      if (size(lines) == 0) then
+         associate (gear => scene%gear)
+            values = [gear%normal_module, gear%pressure_angle_deg, gear%helix_angle_deg, gear%centre_distance, &
+                      gear%contact_position, gear%tip_diameter_1, gear%tip_diameter_2]
+         end associate
+         do i = 1, size(names)
+            ends = ends_of(scene, 'gear.'//trim(names(i)), values(i))
+            do j = 1, 2
+               if (.not. abs(ends(j) - values(i)) > 0.0_dp) cycle
+               varied = scene
+               call set_number(varied, 'gear', names(i), ends(j))
+               lines = [lines, warnings_of_teeth(varied, 'at '//trim(names(i))//' = '//real_text(ends(j))//': ')]
+            end do
+         end do
+      end if
+      scene%warnings = [scene%warnings, lines]
+   end subroutine tell_teeth
 
    !> What follows from &gear and &shaft.
    subroutine tell_gear(scene)
@@ -150,8 +215,9 @@ contains
          call tell(scene, 'gear.centre_distance', [contact%centre_distance], 'm')
          call tell(scene, 'gear.working_pressure_angle', [contact%working_pressure_angle], 'deg')
          call tell(scene, 'gear.base_helix_angle', [contact%base_helix_angle], 'deg')
-         call tell(scene, 'gear.contact_ratio', [contact%contact_ratio], '')
-         call tell(scene, 'gear.overlap_ratio', [contact%overlap_ratio], '')
+         call tell(scene, 'gear.profile_shift_sum', [scene%teeth%shift_sum], '')
+         call tell(scene, 'gear.contact_ratio', [scene%teeth%contact_ratio], '')
+         call tell(scene, 'gear.overlap_ratio', [scene%teeth%overlap_ratio], '')
          if (scene%gear%tip_diameter_1 > 0.0_dp) call tell(scene, 'gear.contact_lines', [contact%contact_lines], '')
          if (scene%drag%known_by /= drag_given) call tell(scene, 'gear.drag_torque', [scene%drag%torque], 'N m')
          if (scene%drag%known_by == drag_computed) then
