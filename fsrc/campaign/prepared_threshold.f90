@@ -7,6 +7,7 @@ module prepared_threshold
    use input_key, only: allowed_text, in_range, is_computable, not_computable_text
    use key_table, only: find_key, key_name, keys
    use kinds, only: dp, int64
+   use mistaken_units, only: meant_behind
    use prepared_campaign, only: campaign_t, prepare_campaign
    use sampling, only: plan_table, sample_plan_t, scene_values
    use scene_types, only: scene_t, set_number
@@ -105,7 +106,7 @@ contains
             else
                cycle
             end if
-            call add(scene, file, trim(ends(i)), message, faults)
+            call add(scene, file, trim(ends(i)), message//meant_behind(keys(position), values(i)), faults)
             return
          end do
          axis = campaign_axis_t(position=position, whole=is_whole(position), scale=threshold%scale, first=threshold%first, &

@@ -35,6 +35,7 @@ contains
       if (.not. scene%gear%given) return
       scene%drag = drag_of_gear(scene%gear, scene%shaft%speed_rpm, scene%oil)
       call find_contact(scene%gear, scene%drag%torque, scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
+      scene%teeth = contact%teeth
       scene%contact%radius = contact%radius
       scene%contact%length = contact%length
       scene%contact%backlash = scene%gear%backlash

@@ -9,7 +9,7 @@ module scene_reader
    use keys_in_use, only: in_use
    use kinds, only: dp
    use namelist_text, only: assignment_t, repeated_group, scan_namelists
-   use odd_numbers, only: odd_numbers_of_input, odd_swings
+   use odd_numbers, only: mistaken_numbers, odd_numbers_of_input, odd_swings
    use scene_checker, only: check_together
    use scene_input, only: new_scene_input, scene_input_t
    use scene_types, only: forced_orders, model_resolved, output_t, scene_t, task_campaign, task_motion, &
@@ -176,6 +176,7 @@ contains
       scene%output = read_output(input)
       scene%lines = input%entries%line
       scene%resolved_input = resolved_text(input, trim(scene%name))//input%found
+      scene%mistaken = mistaken_numbers(input)
       scene%warnings = [scene%warnings, odd_numbers_of_input(input), odd_swings(input, scene%shaft), &
                         published_film_of_gear(input)]
    end subroutine put_values
