@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -49,18 +50,22 @@ class ShaftAngle:
 
     def at(self, time: ArrayLike) -> np.ndarray:
         """Angle [rad] at times [s], not a number outside the recording."""
-        spline = interpolate.make_interp_spline(self.time, self.angle, k=_degree(len(self.time)))
-        return spline(np.asarray(time, dtype=float), extrapolate=False)
+        return self._angle_over_time(np.asarray(time, dtype=float), extrapolate=False)
 
     def times(self, angle: ArrayLike) -> np.ndarray:
         """Times [s] at angles [rad], not a number outside the recording."""
-        return self._time_over_angle()(np.asarray(angle, dtype=float), extrapolate=False)
+        return self._time_over_angle(np.asarray(angle, dtype=float), extrapolate=False)
 
     def speed(self, angle: ArrayLike) -> np.ndarray:
         """Speed [rad/s] at angles [rad], not a number outside the recording."""
-        slope = self._time_over_angle().derivative()
+        slope = self._time_over_angle.derivative()
         return 1.0 / slope(np.asarray(angle, dtype=float), extrapolate=False)
 
+    @cached_property
+    def _angle_over_time(self) -> interpolate.BSpline:
+        return interpolate.make_interp_spline(self.time, self.angle, k=_degree(len(self.time)))
+
+    @cached_property
     def _time_over_angle(self) -> interpolate.BSpline:
         return interpolate.make_interp_spline(self.angle, self.time, k=_degree(len(self.time)))
 

@@ -216,9 +216,11 @@ def _speed_of_shaft(shaft: ShaftAngle, length: float, wanted: int) -> _Record:
         start = begin + number * length
         times = rest[slice(*window)]
         matrix = _harmonic_matrix(shaft.angle[slice(*window)] - start, length, highest)
-        weights, *_, sizes = np.linalg.lstsq(matrix, times, rcond=None)
-        if len(times) < matrix.shape[1] or sizes[0] > MOST_GROWTH * sizes[-1]:
+        # The normal equations do, as what would lose their digits is not taken.
+        sizes, vectors = np.linalg.eigh(matrix.T @ matrix)
+        if sizes[0] * MOST_GROWTH**2 < sizes[-1]:
             continue  # drop-outs leave too little of this cycle
+        weights = vectors @ ((vectors.T @ (matrix.T @ times)) / sizes)
         off.append(np.mean((times - matrix @ weights) ** 2))
         rows.append(60.0 / TURN / (slow.deriv()(start + even) + slopes @ weights))
         starts.append(start)
@@ -258,9 +260,14 @@ def _harmonic_slopes(angle: np.ndarray, length: float, highest: int) -> np.ndarr
 def _harmonics_that_fit(angle: np.ndarray, length: float) -> int:
     """As many harmonics as angles determine without a large growth of their errors."""
     highest = min(MOST_ORDERS, int(0.4 * len(angle)))
-    while highest > 1 and np.linalg.cond(_harmonic_matrix(angle, length, highest)) > GROWTH:
-        highest -= max(1, highest // 20)
-    return max(1, highest)
+    matrix = _harmonic_matrix(angle, length, highest)
+    products = matrix.T @ matrix
+    for fewer in range(highest, 1, -1):
+        kept = np.r_[0 : 2 + fewer, 2 + highest : 2 + highest + fewer]
+        sizes = np.linalg.eigvalsh(products[np.ix_(kept, kept)])
+        if sizes[0] * GROWTH**2 > sizes[-1]:
+            return fewer
+    return 1
 
 
 def _first_cycle(shaft: ShaftAngle, angle: np.ndarray, length: float) -> tuple[float, int]:
