@@ -284,6 +284,20 @@ def test_what_is_no_loose_gear_is_refused(
     assert not (tmp_path / "bench.json").exists()
 
 
+def test_channels_must_be_two_encoders_at_one_speed(bench: Bench, measured: Path, tmp_path: Path) -> None:
+    code, _, complained = measure(measured, channels=("loose", "loose"))
+    assert code == 2 and "two encoders are two channels" in complained
+    # A speed that rises by a tenth over the recording.
+    time = bench.time - bench.time[0]
+    faster = time + 0.05 * time**2 / time[-1]
+    (tmp_path / "bench.nml").write_text(INPUT)
+    bench.write(
+        tmp_path / "bench.csv", change=lambda a, b: (np.interp(faster, time, a), np.interp(faster, time, b))
+    )
+    code, _, complained = measure(tmp_path, "--part", "0,1")
+    assert code == 2 and "at a steady speed" in complained
+
+
 def test_other_files_are_not_calibrated(measured: Path) -> None:
     for text, words in (("{", "is no file of"), ('{"form": "x"}', "its form is not")):
         (measured / "other.json").write_text(text)

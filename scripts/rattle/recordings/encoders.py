@@ -23,6 +23,7 @@ from rattle.recordings.order_windows import fit_window, mean_course
 
 FORM = "rattle encoders 1"
 RATIO = 1e-3  # by which the speeds of the gears may differ from what their base radii say
+STEADY = 0.05  # of the speed, by which it may change
 HIGHEST = 16.0  # order of the driver that is looked for
 STANDING_OUT = 5.0  # standard errors
 LEAST_SHARE = 0.01  # of the strongest order
@@ -95,6 +96,12 @@ def _orders(time: np.ndarray, angle: np.ndarray, period_order: float) -> Shaft:
     course = mean_course(time, angle, max(1, math.ceil(1.0 / period_order - 1e-9)))
     phase = course.phase(time)
     speed = float((phase[-1] - phase[0]) / (time[-1] - time[0]))
+    slow, fast = np.percentile(course.speed, (1.0, 99.0)) * 30.0 / math.pi
+    if fast - slow > STEADY * slow:
+        raise RecordingError(
+            f"the speed of the driver goes from {slow:.4g} to {fast:.4g} 1/min; two encoders are evaluated "
+            "at a steady speed: choose a part by --part."
+        )
     top = min(HIGHEST, 0.4 * math.pi / (speed * float(time[1] - time[0])))
     orders = period_order * np.arange(1, int(top / period_order + 1e-9) + 1)
     middle = 0.5 * (phase[0] + phase[-1])
@@ -183,7 +190,11 @@ def run(arguments: argparse.Namespace) -> int:
     geometry, period_order = _pair(arguments)
     notes: list[str] = []
     recorded = options.read(arguments, notes)
-    shafts = []
+    shafts: list[ShaftAngle] = []
+    if choose(recorded, arguments.driver) is choose(recorded, arguments.loose):
+        raise RecordingError(
+            f"--driver and --loose are both '{arguments.driver}'; two encoders are two channels."
+        )
     for place, name in enumerate((arguments.driver, arguments.loose)):
         lines = arguments.lines[place] if arguments.lines else None
         shafts.append(_encoder(choose(recorded, name), lines, arguments))
