@@ -76,5 +76,5 @@ def test_options_of_the_page_are_options(repository: Path) -> None:
         path.read_text() for path in (repository / "scripts" / "rattle" / "recordings").glob("*.py")
     )
     tables = "".join(re.findall(r"^\|.*\n", page, re.M))
-    for option in re.findall(r"(--[a-z-]+)", tables):
+    for option in re.findall(r"(--[a-z][a-z-]+)", tables):
         assert f'"{option}"' in code, option

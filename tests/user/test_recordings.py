@@ -56,7 +56,6 @@ def assert_orders(shaft: Mapping, *, shift: float = 0.0, mean: float = 812.7, lo
         assert off < loose * PHASE, (order, off)
 
 
-JITTER = TIME + 2e-4 * np.random.default_rng(3).uniform(-1.0, 1.0, len(TIME))
 DAMAGED = np.sort(TIME + 4e-4 * np.random.default_rng(4).uniform(-1.0, 1.0, len(TIME)))
 DAMAGED[0] = 0.0
 ABOVE = "Test bench 7;cell 3\nengine: idle, 812 rpm\n\n"
@@ -182,16 +181,44 @@ def test_the_speed_of_a_force_is_measured_from_it(tmp_path: Path) -> None:
     assert frequency * 120.0 == pytest.approx(812.7, rel=1e-5)
 
 
+def test_a_force_goes_into_a_load(tmp_path: Path, run, scene_text) -> None:
+    """The lines that are printed, in a scene of the paper's symbols."""
+    force = bench.series(bench.FORCE, ENGINE.angle(TIME)) + 20.0
+    bench.csv(
+        tmp_path / "f.csv", ("time_s", "n_rpm", "force_kN"), (TIME, SPEED, force / 1e3), digits=[".9g"] * 3
+    )
+    given = ("--signal", "force_kN", "--speed", "n_rpm", "--cycle-revolutions", 1, "--output", "cycle.csv")
+    code, said, complained = called_here("recording.py", "f.csv", *given, cwd=tmp_path)
+    assert code == 0, complained
+    lines = re.search(r"^&load\n(.*)^/", said, re.M | re.S)[1]
+    text = scene_text(load={"force_amplitude": None, "frequency": None})
+    (tmp_path / "scene.nml").write_text(text.replace("&load\n", f"&load\n{lines}"))
+    checked = run("--check", "scene.nml", cwd=tmp_path)
+    assert (checked.returncode, checked.stderr) == (0, ""), checked
+    load = f90nml.reads(checked.stdout)["load"]
+    assert load["frequency"] == pytest.approx(812.52 / 60.0, rel=1e-4)
+    assert load["force_orders"] == [1.0, 2.0, 3.0] and load["force_mean"] == pytest.approx(20.0, abs=0.1)
+    for found, phased, (amplitude, phase) in zip(
+        load["force_amplitudes"], load["force_phases"], bench.FORCE.values(), strict=True
+    ):
+        assert found == pytest.approx(amplitude, rel=AMPLITUDE)
+        assert abs(np.degrees(phased - phase)) < PHASE
+
+
 def test_drop_outs_of_a_wheel_are_bridged_up_to_a_length(tmp_path: Path) -> None:
     time = bench.times(ENGINE.span, 20000.0)
     volts = ENGINE.wheel(time, 60, 2)
-    # Three pulses and, elsewhere, one are lost; one too many comes.
+    # Three pulses and, elsewhere, one are lost; one too many comes between two.
     volts[(time > 1.001) & (time < 1.0046)] = 0.0
     volts[(time > 2.5) & (time < 2.5012)] = 0.0
+    volts[int(np.flatnonzero((np.diff(volts) > 0.0) & (time[1:] > 3.0))[0]) - 4] = 5.0
     tacho = recordings.Channel("tacho", "V", time, volts, "bench")
     options = {"pulses_per_revolution": 60, "missing_teeth": 2}
     shaft = recordings.shaft_angle(tacho, **options)
     assert any("2 drop-outs, the longest at 1.00" in note for note in shaft.notes), shaft.notes
+    assert any(
+        "a pulse of 'tacho' too soon behind another left out, first at 3.0" in note for note in shaft.notes
+    )
     found = recordings.mean_cycle(None, shaft)
     assert found.amplitudes[3] == pytest.approx(bench.ORDERS[2.0][0] * ENGINE.mean, rel=AMPLITUDE)
     with pytest.raises(recordings.RecordingError, match=r"drops out at 1\.00.* gaps up to 0\.003 s"):
@@ -210,8 +237,9 @@ def test_a_spike_is_reported_and_mended_on_request(
         lines[place] = f"{lines[place].partition(',')[0]},{value}"
     (tmp_path / "spike.csv").write_text("\n".join(lines) + "\n")
     stem = f"'speed_rpm' is {value:g} 1/min"
-    code, said, _ = called_here("recording.py", "spike.csv", "--output", "unmended.csv", cwd=tmp_path)
-    assert (code == 0 and f"{stem}" in said and "--mend replaces" in said) or (code == 2 and value == 0.0)
+    code, _, warned = called_here("recording.py", "spike.csv", "--output", "unmended.csv", cwd=tmp_path)
+    assert code == (2 if value == 0.0 else 0) and "--mend replaces" in warned
+    assert value == 0.0 or f"warning: {stem}" in warned
     mended = cycle("spike.csv", "--mend", said=stem)
     for before, after in zip(whole["speed_amplitudes"][:24], mended["speed_amplitudes"][:24], strict=True):
         # Of an order whose period is no longer than the gap, as order 12, nobody knows what it does there.

@@ -297,7 +297,7 @@ def _from_pulses(channel: Channel, teeth: int, missing: int, bridge: float) -> S
                 f"{channel.source}: the gaps of '{channel.name}' do not come once in {teeth} teeth; "
                 "check --pulses and --missing."
             )
-        place = place - mark
+        place = _resynchronised(place - mark, counts, teeth, missing, notes)
         marked = True
         dropped = dropped[(place[1:][dropped] % teeth != 0) | (counts[dropped] != gap)]
     _tell_dropped(channel, edges, counts, dropped, bridge, notes)
@@ -355,21 +355,47 @@ def _local(intervals: np.ndarray, window: int) -> np.ndarray:
 
 
 def _without_extra(edges: np.ndarray, channel: Channel, notes: list[str]) -> np.ndarray:
-    """Edges without those that come in less than half a tooth behind another, as bouncing ones do."""
+    """Edges without those that come between two others a tooth apart, as bouncing ones do."""
     intervals = np.diff(edges)
-    extra = np.flatnonzero(intervals < 0.4 * _local(intervals, 9)) + 1
-    if extra.size:
-        if extra.size > 0.1 * len(edges):
+    usual = _local(intervals, 15)
+    extra: list[int] = []
+    for place in np.flatnonzero((intervals[:-1] < 0.75 * usual[:-1]) | (intervals[1:] < 0.75 * usual[1:])):
+        both = intervals[place] + intervals[place + 1]
+        if both < 1.3 * usual[place] and place not in extra:
+            extra.append(int(place) + 1)
+    if extra:
+        if len(extra) > 0.1 * len(edges):
             raise RecordingError(
-                f"{channel.source}: {extra.size} of {len(edges)} pulses of '{channel.name}' come too soon "
+                f"{channel.source}: {len(extra)} of {len(edges)} pulses of '{channel.name}' come too soon "
                 "behind "
                 "another; it is no tacho, or noise crosses its middle."
             )
+        several = f"{len(extra)} pulses" if len(extra) > 1 else "a pulse"
         notes.append(
-            f"{extra.size} pulse{'s' if extra.size > 1 else ''} of '{channel.name}' too soon behind another "
-            f"{'are' if extra.size > 1 else 'is'} left out, the first at {edges[extra[0]]:.6g} s."
+            f"{several} of '{channel.name}' too soon behind another left out, first at "
+            f"{edges[extra[0]]:.6g} s."
         )
     return np.delete(edges, extra)
+
+
+def _resynchronised(
+    place: np.ndarray, counts: np.ndarray, teeth: int, missing: int, notes: list[str]
+) -> np.ndarray:
+    """Teeth passed, set right at gaps of the wheel that come a tooth or two from where they should.
+
+    A gap that comes farther away is a drop-out of as many teeth.
+    """
+    shift = np.zeros(len(place))
+    for at in np.flatnonzero(counts == missing + 1) + 1:
+        off = (place[at] + shift[at] + teeth / 2) % teeth - teeth / 2
+        if 0.0 < abs(off) <= 2.0:
+            shift[at:] -= off
+    if np.any(shift != 0.0):
+        count = np.count_nonzero(np.diff(shift))
+        notes.append(
+            f"pulses that were lost or too many are set right at {count} gap{'s' if count > 1 else ''}."
+        )
+    return place + shift
 
 
 def _teeth_passed(edges: np.ndarray, teeth: int) -> np.ndarray:

@@ -67,7 +67,7 @@ def run(arguments: argparse.Namespace) -> int:
     write = partial(signals.write_csv, cycle=cycle, quantity=quantity)
     outputs.write([(arguments.output, write)], overwrite=arguments.overwrite, inputs=arguments.files)
     for note in notes + cycle.notes:
-        print(note)
+        (command.note if note.startswith("warning: ") else print)(note)
     print()
     print(table.plain(_rows(cycle)))
     for warning in cycle.warnings:

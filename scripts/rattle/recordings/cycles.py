@@ -23,6 +23,9 @@ MOST_ORDERS = 128
 LEAST_SHARE = 1e-3
 # An order stands out of the scatter where it is so many times its standard error.
 SIGNIFICANT = 4.0
+# By how much harmonics by least squares may grow errors of the times; for all cycles, and for one with
+# drop-outs.
+GROWTH, MOST_GROWTH = 30.0, 100.0
 
 
 @dataclass(frozen=True)
@@ -85,6 +88,8 @@ def mean_cycle(
     samples = samples_per_revolution * cycle_revolutions
     # No more orders than the output holds, or the recording.
     highest = min(samples // 2 - 1, record.highest, rows.shape[1] // 2 - 1)
+    if samples < 2 * LEAST_SAMPLES:
+        raise RecordingError(f"{samples} samples a cycle are too few to be written: --samples.")
     if highest < 1:
         raise RecordingError(
             f"{record.name} has fewer than three samples a cycle, so no order of it is known."
@@ -94,9 +99,9 @@ def mean_cycle(
     oscillating = spectrum[1 : highest + 1]
     amplitudes = 2.0 * np.abs(oscillating)
     along, across = _standard_errors(spectra[:, 1 : highest + 1])
-    edges = record.begin + length * np.arange(len(rows) + 1)
-    times = shaft.times(np.clip(edges, *shaft.angle[[0, -1]]))
-    speeds = 60.0 / TURN * np.diff(np.clip(edges, *shaft.angle[[0, -1]])) / np.diff(times)
+    edges = np.clip(record.starts[:, None] + np.array([0.0, length]), *shaft.angle[[0, -1]])
+    times = shaft.times(edges)
+    speeds = 60.0 / TURN * np.diff(edges, axis=1)[:, 0] / np.diff(times, axis=1)[:, 0]
     cycle = MeanCycle(
         name=record.name,
         unit=record.unit,
@@ -112,7 +117,7 @@ def mean_cycle(
         amplitude_errors=along,
         phase_errors=across / np.maximum(amplitudes, np.finfo(float).tiny),
         scatter=_scatter(rows),
-        speed_rpm=float(60.0 / TURN * np.ptp(np.clip(edges, *shaft.angle[[0, -1]])) / np.ptp(times)),
+        speed_rpm=float(60.0 / TURN * np.ptp(edges) / np.ptp(times)),
         speed_range=(float(speeds.min()), float(speeds.max())),
         resampling_error=record.error,
         kept=_kept(amplitudes, along, derivative),
@@ -133,7 +138,7 @@ class _Record:
     name: str
     unit: str
     rows: np.ndarray
-    begin: float
+    starts: np.ndarray
     left_out: float
     highest: int
     error: float
@@ -171,7 +176,7 @@ def _samples_of_channel(
         name=channel.name,
         unit=channel.unit,
         rows=rows,
-        begin=begin,
+        starts=begin + length * np.arange(cycles),
         left_out=max(0.0, (angle[-1] - angle[0] - cycles * length) / TURN),
         highest=int(0.5 * length / np.max(np.diff(angle))),
         error=interpolation_error(angle, values),
@@ -192,41 +197,47 @@ def _speed_of_shaft(shaft: ShaftAngle, length: float, wanted: int) -> _Record:
         raise RecordingError(_too_short("the angle of the shaft", shaft.angle, length))
     slow = np.polynomial.Polynomial.fit(shaft.angle, shaft.time, 3 if cycles > 2 else 1)
     rest = shaft.time - slow(shaft.angle)
+    ends = np.array([-1e-9, length + 1e-9])
+    windows = [shaft.angle.searchsorted(begin + number * length + ends) for number in range(cycles)]
+    fullest = slice(*max(windows, key=lambda window: window[1] - window[0]))
+    count = fullest.stop - fullest.start
+    if count < 2 * LEAST_SAMPLES:
+        raise RecordingError(
+            f"{count} pulses or angles in a cycle of {length / TURN:.0f} revolutions do not show what the "
+            "speed does "
+            f"within it; it takes {2 * LEAST_SAMPLES}."
+        )
+    highest = _harmonics_that_fit(shaft.angle[fullest], length)
     samples = round(length / TURN) * wanted
     even = np.arange(samples) * (length / samples)
-    highest = None
-    rows, off = [], []
-    for cycle in range(cycles):
-        start = begin + cycle * length
-        inside = slice(*np.searchsorted(shaft.angle, [start - 1e-9, start + length + 1e-9]))
-        angle, times = shaft.angle[inside] - start, rest[inside]
-        if len(angle) < 2 * LEAST_SAMPLES:
-            raise RecordingError(
-                f"{len(angle)} pulses or angles in a cycle of {length / TURN:.0f} revolutions do not show "
-                "what the speed "
-                f"does within it; it takes {2 * LEAST_SAMPLES}."
-            )
-        if highest is None:
-            highest = _harmonics_that_fit(angle, length)
-        matrix = _harmonic_matrix(angle, length, highest)
-        weights, *_ = np.linalg.lstsq(matrix, times, rcond=None)
-        off.append(times - matrix @ weights)
-        slowness = slow.deriv()(start + even) + _harmonic_slopes(even, length, highest) @ weights
-        rows.append(60.0 / TURN / slowness)
-    known = np.array(rows)
-    # What the harmonics leave of the times, as noise of as many harmonics in the speed.
-    misfit = float(np.sqrt(np.mean(np.concatenate(off) ** 2)))
-    inside_speed = misfit * highest * TURN / length / float(np.mean(60.0 / TURN / known)) * known.mean()
+    slopes = _harmonic_slopes(even, length, highest)
+    rows, starts, off = [], [], []
+    for number, window in enumerate(windows):
+        start = begin + number * length
+        times = rest[slice(*window)]
+        matrix = _harmonic_matrix(shaft.angle[slice(*window)] - start, length, highest)
+        weights, *_, sizes = np.linalg.lstsq(matrix, times, rcond=None)
+        if len(times) < matrix.shape[1] or sizes[0] > MOST_GROWTH * sizes[-1]:
+            continue  # drop-outs leave too little of this cycle
+        off.append(np.mean((times - matrix @ weights) ** 2))
+        rows.append(60.0 / TURN / (slow.deriv()(start + even) + slopes @ weights))
+        starts.append(start)
+    if not rows:
+        raise RecordingError("drop-outs leave no whole cycle of the angle of the shaft.")
+    left = f"{cycles - len(rows)} of {cycles} cycles are left out: drop-outs leave too little of them."
+    speeds = np.array(rows)
+    # What the harmonics leave of the times, as an error of the highest one in the speed.
+    misfit = float(np.sqrt(np.mean(off) / count)) * highest * TURN / length * TURN / 60.0 * speeds.mean() ** 2
     return _Record(
         name="speed of the shaft",
         unit="rpm",
-        rows=known,
-        begin=begin,
+        rows=speeds,
+        starts=np.array(starts),
         left_out=(shaft.angle[-1] - shaft.angle[0] - cycles * length) / TURN,
         highest=highest,
-        error=inside_speed / max(float(np.std(known.mean(axis=0))), 1e-300) / np.sqrt(len(off[0])),
+        error=misfit / max(float(np.std(speeds.mean(axis=0))), np.finfo(float).tiny),
         method="harmonics of the times of its angles, by least squares in each cycle",
-        notes=[],
+        notes=[left] if len(rows) < cycles else [],
     )
 
 
@@ -247,7 +258,7 @@ def _harmonic_slopes(angle: np.ndarray, length: float, highest: int) -> np.ndarr
 def _harmonics_that_fit(angle: np.ndarray, length: float) -> int:
     """As many harmonics as angles determine without a large growth of their errors."""
     highest = min(MOST_ORDERS, int(0.4 * len(angle)))
-    while highest > 1 and np.linalg.cond(_harmonic_matrix(angle, length, highest)) > 30.0:
+    while highest > 1 and np.linalg.cond(_harmonic_matrix(angle, length, highest)) > GROWTH:
         highest -= max(1, highest // 20)
     return max(1, highest)
 

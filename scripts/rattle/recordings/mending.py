@@ -88,9 +88,12 @@ def mended(channel: Channel, *, mend: bool, notes: list[str], trend: np.ndarray 
             span += f" to {last} ({end - begin + 1} samples)"
         around = [finite[place] for place in (begin - 1, end + 1) if 0 <= place < len(finite)]
         words = " and ".join(f"{shown[place]:.6g}" for place in around)
-        fate = "replaced." if mend else "a spike or drop-out; --mend replaces it."
         value = f"{shown[at[0]]:.6g} {units.shown(channel.unit)}".rstrip()
-        notes.append(f"'{channel.name}' is {value} at {span}, its neighbours {words}: {fate}")
+        sentence = f"'{channel.name}' is {value} at {span}, its neighbours {words}: "
+        # Reported as a warning where it stays as it is.
+        notes.append(
+            f"{sentence}replaced." if mend else f"warning: {sentence}a spike or drop-out; --mend replaces it."
+        )
     if len(odd) > REPORTED:
         notes.append(f"'{channel.name}' has {len(odd)} of these in all, {count} samples.")
     if not mend:

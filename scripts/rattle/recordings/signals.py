@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -80,7 +81,7 @@ def _converted(channel: Channel, quantity: Taken, scale: float, notes: list[str]
 def write_csv(path: Path, cycle: MeanCycle, quantity: Taken) -> None:
     """One cycle over the angle, as `signal` takes it."""
     turns = cycle.cycle_revolutions
-    lines = [f"# mean of {cycle.cycles} cycles of {turns} revolutions", f"angle_deg,{quantity.column}"]
+    lines = [f"# mean of {cycle.cycles} x {turns} revolutions", f"angle_deg,{quantity.column}"]
     step = 360.0 * turns / len(cycle.values)
     lines += [f"{round(step * place, 9)!r},{value:.9g}" for place, value in enumerate(cycle.values.tolist())]
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
@@ -103,9 +104,9 @@ def namelist(cycle: MeanCycle, quantity: Taken, path: Path) -> str:
         lines.append(f"signal_orders = {cycle.kept}")
     if known:
         low, high = cycle.speed_range
-        span = f"{low:.6g}, {high:.6g}"
+        span = f"{math.floor(low):.1f}, {math.ceil(high):.1f}"
         if (quantity.group, "signal_speed_range") in key_table():
             lines.append(f"signal_speed_range = {span}")
         else:
-            lines.append(f"! measured from {low:.6g} to {high:.6g} 1/min")
+            lines.append(f"! measured from {math.floor(low)} to {math.ceil(high)} 1/min")
     return "\n".join([f"&{quantity.group}", *(f"   {line}" for line in lines), "/"])

@@ -6,8 +6,8 @@ import csv
 import io
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,13 +18,14 @@ from rattle.recordings.faults import RecordingError, library
 from rattle.recordings.raw import Raw
 
 # Separator and decimal mark; of several that fit as many lines the first.
-DIALECTS = ((";", ","), (";", "."), ("\t", ","), ("\t", "."), (",", "."), ("|", "."), (" ", ","), (" ", "."))
+DIALECTS = ((";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), ("|", "."), (" ", "."), (" ", ","))
 WORDS = {"\t": "tabs", " ": "blanks", ";": "semicolons", ",": "commas", "|": "bars"}
 COMMENT = ("#", "!", "%", "//")
 GAPS = ("", "nan", "na", "n/a", "-", "--", "null", "none", "#n/a", "#nv", "invalid")
 TIME_NAMES = re.compile(r"(^(t|times|timestamps?|zeitstempel)|time|zeit)(?![a-z])", re.IGNORECASE)
 CLOCK = re.compile(r"^(\d{4}-\d\d?-\d\d?[ T]|\d\d?[./]\d\d?[./]\d{2,4} )?\d\d?:\d\d:\d\d([.,]\d+)?Z?$")
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0}
+THOUSANDS = re.compile(r"^[-+]?\d{1,3}(\.\d{3})+,\d*$")
 SAMPLE = 400
 # No quantity of a bench is as large.
 LARGEST = 1e30
@@ -32,12 +33,13 @@ LARGEST = 1e30
 
 @dataclass(frozen=True)
 class Layout:
-    """How the lines of a text are to be read."""
+    """How the lines of a text are to be read; `words` are columns without numbers."""
 
     separator: str
     decimal: str
     columns: int
     first: int
+    words: frozenset[int] = frozenset()
 
     def split(self, line: str) -> list[str]:
         if self.separator == " ":
@@ -46,18 +48,21 @@ class Layout:
 
 
 def read_text(path: Path, notes: list[str]) -> list[Raw]:
-    """Every column of numbers; one of time or, where none is, none gives the times."""
+    """Every column of numbers, over the one that is time, if one is."""
     lines = _decoded(path, notes).splitlines()
     kept = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and not _is_comment(line)]
     layout = _layout(path, [line for _, line in kept])
     names, given = _heads(path, layout, kept, lines, notes)
-    numbers, table = _table(path, layout, kept[layout.first :], names)
-    time_at = _time_column(names, given, table)
+    numbers, table, clocks = _table(path, layout, kept[layout.first :], names)
+    time_at = _time_column(path, names, given, table, clocks, notes)
     time = None if time_at is None else _seconds(table[time_at], given[time_at], names[time_at])
+    left_out = [names[place] for place, column in table.items() if column is None]
+    if left_out:
+        notes.append(f"{path}: columns of words are left out: {', '.join(left_out[:9])}.")
     return [
-        Raw(name, unit, column, time, numbers)
-        for place, (name, unit, column) in enumerate(zip(names, given, table, strict=True))
-        if place != time_at and np.isfinite(column).any() | (len(column) > 0)
+        Raw(names[place], given[place], column, time, numbers)
+        for place, column in table.items()
+        if place != time_at and column is not None
     ]
 
 
@@ -84,70 +89,83 @@ def _is_comment(line: str) -> bool:
     return line.lstrip().lstrip('"').startswith(COMMENT) and not line.lower().lstrip().startswith("#n")
 
 
+def _plain_number(cell: str, decimal: str) -> str:
+    """A number with a decimal point; with decimal commas points may stand between thousands."""
+    if decimal == ".":
+        return cell
+    if THOUSANDS.match(cell):
+        cell = cell.replace(".", "")
+    return "" if "." in cell and "," in cell else cell.replace(",", ".")
+
+
 def _is_number(cell: str, decimal: str) -> bool:
-    cell = cell.strip()
-    if decimal == ",":
-        if "." in cell and "," in cell:
-            return False
-        cell = cell.replace(",", ".")
     try:
-        float(cell)
+        float(_plain_number(cell.strip(), decimal))
     except ValueError:
         return False
-    return "_" not in cell
+    return "_" not in cell and cell.lower() != "nan"
 
 
-def _is_data(cells: Sequence[str], decimal: str) -> bool:
-    numbers = [_is_number(cell, decimal) and cell.lower() != "nan" for cell in cells]
-    return all(
-        number or cell.lower() in GAPS or CLOCK.match(cell)
-        for number, cell in zip(numbers, cells, strict=True)
-    ) and any(number or cell.lower() == "nan" for number, cell in zip(numbers, cells, strict=True))
+def _is_data(cells: Sequence[str], decimal: str, words: Collection[int] = ()) -> bool:
+    """Whether cells are numbers, gaps and times of a clock, but for the columns of words; one is a number."""
+    numbers = [_is_number(cell, decimal) for cell in cells]
+    return any(numbers) and all(
+        number or place in words or cell.lower() in GAPS or CLOCK.match(cell)
+        for place, (number, cell) in enumerate(zip(numbers, cells, strict=True))
+    )
+
+
+def _words_among(rows: Sequence[Sequence[str]], decimal: str) -> set[int]:
+    """Columns of words: hardly a number stands in them."""
+    found = set()
+    for place in range(len(rows[0])):
+        cells = [row[place] for row in rows if row[place].lower() not in GAPS]
+        if cells and sum(_is_number(c, decimal) or bool(CLOCK.match(c)) for c in cells) < 0.1 * len(cells):
+            found.add(place)
+    return found
 
 
 def _layout(path: Path, lines: list[str]) -> Layout:
     """The separator and decimal mark with which most lines are as many numbers."""
-    if not lines:
-        raise RecordingError(f"{path} has no line of numbers.")
     step = max(1, len(lines) // SAMPLE)
     sample = lines[: SAMPLE // 4] + lines[SAMPLE // 4 :: step]
     best: tuple[int, int, Layout] | None = None
     for separator, decimal in DIALECTS:
         layout = Layout(separator, decimal, 0, 0)
-        counts = Counter(
-            len(cells) for line in sample if _is_data(cells := _without_end(layout.split(line)), decimal)
-        )
-        if not counts:
+        split = [_without_end(layout.split(line)) for line in sample]
+        rows = [cells for cells in split if any(_is_number(cell, decimal) for cell in cells)]
+        if not rows:
             continue
-        columns, rows = max(counts.items(), key=lambda item: (item[1], item[0]))
-        heads = max((len(_without_end(layout.split(line))) for line in sample[:30]), default=0)
-        if separator in line_marks(sample) or columns > 1 or separator == " ":
-            score = (rows, min(columns, 2) + (heads == columns))
-            if best is None or score > best[:2]:
-                best = (*score, Layout(separator, decimal, columns, 0))
+        columns = max(Counter(map(len, rows)).items(), key=lambda item: (item[1], item[0]))[0]
+        rows = [cells for cells in rows if len(cells) == columns]
+        words = _words_among(rows, decimal)
+        count = sum(_is_data(cells, decimal, words) for cells in rows)
+        heads = any(len(cells) == columns for cells in split[:30] if not _is_data(cells, decimal, words))
+        score = (count, min(2, columns - len(words)) + heads)
+        if columns > len(words) and count and (best is None or score > best[:2]):
+            best = (*score, Layout(separator, decimal, columns, 0, frozenset(words)))
     if best is None:
         raise RecordingError(f"{path} has no line of numbers.")
-    layout = best[2]
+    return _placed(path, best[2], lines)
+
+
+def _placed(path: Path, layout: Layout, lines: list[str]) -> Layout:
+    """The layout with the place of the first line of numbers."""
+    cells = (_without_end(layout.split(line)) for line in lines)
     first = next(
         place
-        for place, line in enumerate(lines)
-        if len(cells := _without_end(layout.split(line))) == layout.columns
-        and _is_data(cells, layout.decimal)
+        for place, row in enumerate(cells)
+        if 2 * len(row) > layout.columns >= len(row) and _is_data(row, layout.decimal, layout.words)
     )
-    if layout.separator == "," and first > 0:
-        heads = len(_without_end(layout.split(lines[first - 1])))
-        if layout.columns == 2 * heads:
-            raise RecordingError(
-                f"{path}: commas stand between its columns and within its numbers ({heads} heads, "
-                f"{layout.columns} numbers a line); write it with semicolons between the columns."
-            )
-    return Layout(layout.separator, layout.decimal, layout.columns, first)
-
-
-def line_marks(lines: Iterable[str]) -> set[str]:
-    """Which of the separators stand anywhere in lines."""
-    text = "".join(lines)
-    return {mark for mark in WORDS if mark in text}
+    heads = len(_without_end(layout.split(lines[first - 1]))) if first else 0
+    if layout.separator == "," and layout.columns == 2 * heads:
+        if heads == 1:
+            return Layout("|", ",", 1, first)
+        raise RecordingError(
+            f"{path}: commas stand between its columns and within its numbers ({heads} heads, "
+            f"{layout.columns} numbers a line); write it with semicolons between the columns."
+        )
+    return replace(layout, first=first)
 
 
 def _without_end(cells: list[str]) -> list[str]:
@@ -160,10 +178,8 @@ def _heads(
 ) -> tuple[list[str], list[str]]:
     """Names and units of the columns: from rows above the numbers, or a comment that has as many words."""
     above = [(number, _without_end(layout.split(line))) for number, line in kept[: layout.first]]
-    rows = [
-        (number, _padded(cells, layout.columns)) for number, cells in above if len(cells) <= layout.columns
-    ]
-    full = [(n, cells) for n, cells in rows if layout.columns == 1 or sum(map(bool, cells)) > 1]
+    rows = [(number, _padded(cells, layout.columns)) for number, cells in above]
+    full = [(n, c) for n, c in rows if layout.columns == 1 or sum(map(bool, c)) > 1 or _is_units(c)]
     names: list[str] = []
     row_of_units: list[str] = []
     if full and _is_units(full[-1][1]) and len(full) > 1:
@@ -185,13 +201,13 @@ def _heads(
     for place, cell in enumerate(row_of_units):
         if cell:
             given[place] = units.plain(cell)
-    told = f"{path}: {WORDS[layout.separator]} between columns"
-    notes.append(told + (", decimal commas." if layout.decimal == "," else "."))
+    between = f" {WORDS[layout.separator]} between columns" if layout.columns > 1 else " one column"
+    notes.append(f"{path}:{between}{', decimal commas' if layout.decimal == ',' else ''}.")
     return found, given
 
 
 def _padded(cells: list[str], count: int) -> list[str]:
-    return cells + [""] * (count - len(cells))
+    return [*cells, *[""] * count][:count]
 
 
 def _is_units(cells: Sequence[str]) -> bool:
@@ -225,8 +241,8 @@ def _name_and_unit(head: str) -> tuple[str, str]:
 
 def _table(
     path: Path, layout: Layout, rows: list[tuple[int, str]], names: Sequence[str]
-) -> tuple[np.ndarray, list[np.ndarray]]:
-    """The numbers of each column, and the lines on which they stand."""
+) -> tuple[np.ndarray, dict[int, np.ndarray | None], set[int]]:
+    """Lines of the samples, the numbers of each column (None: it has words), and which columns are clocks."""
     pandas = library("pandas")
     numbers = np.array([number for number, _ in rows])
     text = "\n".join(line.strip(" ") for _, line in rows)
@@ -260,27 +276,34 @@ def _table(
         raise RecordingError(
             f"{path}, line {line}: it has more than the {layout.columns} columns of the others."
         )
-    return numbers, [
-        _column(path, frame[place], names[place], numbers, layout.decimal) for place in range(layout.columns)
-    ]
+    table: dict[int, np.ndarray | None] = {}
+    clocks = set()
+    for place in range(layout.columns):
+        table[place] = None
+        if place not in layout.words:
+            table[place] = _clock(frame[place])
+            if table[place] is not None:
+                clocks.add(place)
+            else:
+                table[place] = _column(path, frame[place], names[place], numbers, layout.decimal)
+    return numbers, table, clocks
 
 
 def _column(path: Path, cells: Any, name: str, lines: np.ndarray, decimal: str) -> np.ndarray:
     """The numbers of a column; a cell that is none, or is not finite, is refused with its line."""
     pandas = library("pandas")
-    words = cells.fillna("").astype(str).str.strip() if cells.dtype.kind not in "fiu" else None
-    if words is None:
+    if cells.dtype.kind in "fiu":
         values = cells.to_numpy(dtype=float)
         strange = np.abs(values) > LARGEST
-    elif words.str.match(CLOCK).mean() > 0.9:
-        stamps = pandas.to_datetime(
-            words.str.replace(",", "."), errors="coerce", format="mixed", dayfirst=True
-        )
-        return (stamps - stamps.dropna().iloc[0]).dt.total_seconds().to_numpy(dtype=float)
     else:
-        plain = words.str.replace(",", ".") if decimal == "," else words
-        values = pandas.to_numeric(plain.where(plain != "", "nan"), errors="coerce").to_numpy(dtype=float)
-        strange = np.isnan(values) & ~words.str.lower().isin(GAPS).to_numpy() | (np.abs(values) > LARGEST)
+        words = cells.fillna("").astype(str).str.strip()
+        if decimal == "," and words.str.match(THOUSANDS).any():
+            # Then a point stands between thousands also where there is no comma.
+            words = words.str.replace(".", "", regex=False)
+        plain = words.map(lambda cell: _plain_number(cell, decimal) or "nan")
+        values = pandas.to_numeric(plain, errors="coerce").to_numpy(dtype=float)
+        gaps = words.str.lower().isin(GAPS).to_numpy()
+        strange = np.isnan(values) & ~gaps | (np.abs(values) > LARGEST)
     if strange.any():
         at = int(np.argmax(strange))
         cell = str(cells.iloc[at]).strip()[:40]
@@ -290,17 +313,47 @@ def _column(path: Path, cells: Any, name: str, lines: np.ndarray, decimal: str) 
     return values
 
 
-def _time_column(names: Sequence[str], given: Sequence[str], table: Sequence[np.ndarray]) -> int | None:
-    """The column of time: by its name, else the first whose unit is one of time, if it ascends."""
-    for place, (name, unit) in enumerate(zip(names, given, strict=True)):
-        if TIME_NAMES.search(name) and unit in ("", *SECONDS):
+def _clock(cells: Any) -> np.ndarray | None:
+    """Seconds from the first time of a clock on; None of a column that is none."""
+    pandas = library("pandas")
+    if cells.dtype.kind in "fiu":
+        return None
+    words = cells.fillna("").astype(str).str.strip()
+    if not words.str.match(CLOCK).mean() > 0.9:
+        return None
+    german = words.str.contains(".", regex=False) & words.str.match(r"^\d\d?\.")
+    stamps = pandas.to_datetime(
+        words.str.replace(",", "."), errors="coerce", format="mixed", dayfirst=bool(german.any())
+    )
+    return (stamps - stamps.dropna().iloc[0]).dt.total_seconds().to_numpy(dtype=float)
+
+
+def _time_column(
+    path: Path,
+    names: Sequence[str],
+    given: Sequence[str],
+    table: Mapping[int, np.ndarray | None],
+    clocks: Collection[int],
+    notes: list[str],
+) -> int | None:
+    """The column of time: a clock, or by its name, its unit, or as the first one that ascends evenly."""
+    numbers = {place: column for place, column in table.items() if column is not None}
+    for place in numbers:
+        if place in clocks or (TIME_NAMES.search(names[place]) and given[place] in ("", *SECONDS)):
             return place
-    for place, unit in enumerate(given):
-        if unit in SECONDS and np.all(np.diff(table[place]) >= 0.0):
+    for place, column in numbers.items():
+        unit = given[place] or names[place]
+        if unit in SECONDS and (given[place] or unit != "min") and np.all(np.diff(column) >= 0.0):
             return place
-    for place, name in enumerate(names):
-        if name in SECONDS and name != "min" and np.all(np.diff(table[place]) >= 0.0):
-            return place
+    first = numbers.get(0)
+    if first is None or len(numbers) < 2 or len(first) < 4 or given[0]:
+        return None
+    steps = np.diff(first)
+    even = np.all(np.abs(steps - np.median(steps)) <= 0.1 * np.median(steps))
+    # Steps of one count samples.
+    if even and steps[0] > 0.0 and not np.all(steps == 1.0):
+        notes.append(f"{path}: '{names[0]}' ascends evenly; it is taken as the time in s.")
+        return 0
     return None
 
 

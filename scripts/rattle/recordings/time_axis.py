@@ -86,8 +86,8 @@ def _uniform(time: np.ndarray, source: str, notes: list[str]) -> np.ndarray:
     """Evenly spaced times where the stamps differ from these by jitter or rounding alone; gaps remain."""
     steps = np.diff(time)
     counted = np.concatenate(([0.0], np.cumsum(np.maximum(1.0, np.round(steps / np.median(steps))))))
-    slope, offset = np.polyfit(counted, time, 1)
-    even = offset + slope * counted
+    slope, offset = np.polyfit(counted, time - time[0], 1)
+    even = time[0] + offset + slope * counted
     off = float(np.max(np.abs(even - time)))
     missing = int(counted[-1]) + 1 - len(time)
     if missing > 0.1 * len(time) or off > max(MOST_JITTER * slope, min(_last_digit(time), 0.6 * slope)):

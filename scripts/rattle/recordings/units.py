@@ -152,7 +152,7 @@ def _parsed(unit: str) -> Any:
 
 def _turns(unit: str) -> bool:
     """Whether a unit counts turns or angles: to pint these are plain numbers."""
-    return unit in ROTATING or re.match(r"(rad|deg(?!C)|rev|rpm)", unit) is not None
+    return unit in ROTATING or re.search(r"(^|[*/ ])[mkuM]?(rad|deg(?!C)|rev|rpm|turn|arc)", unit) is not None
 
 
 def convert(values: np.ndarray, unit: str, target: str, name: str = "the channel") -> np.ndarray:
