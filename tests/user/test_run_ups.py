@@ -95,7 +95,7 @@ def test_a_table_holds_what_was_put_in(measured: Path) -> None:
         assert np.max(np.abs(np.abs(ratio) - 1.0)) < share
         assert np.degrees(np.max(np.abs(np.angle(ratio)))) < degrees
     said = (measured / "said.txt").read_text()
-    assert "Orders 2, 4, 6, 8 are kept" in said and "&shaft table = 'table.csv'" in said
+    assert "Orders kept by power: 2, 4, 6, 8" in said and "&shaft table = 'table.csv'" in said
 
 
 @pytest.mark.parametrize("last", (3000.0, 500.0))

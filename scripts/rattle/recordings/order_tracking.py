@@ -137,8 +137,8 @@ def track_run_up(
     rest = 1.0 - float(np.sum(powers[kept]) / np.sum(powers))
     left = [order for order, stays in zip(wanted, is_kept, strict=True) if not stays]
     notes.append(
-        f"Orders {_words([wanted[place] for place in kept])} are kept"
-        + (f", {_words(left)} dropped: {rest:.2g} of the power." if left else ".")
+        f"Orders kept{'' if asked else ' by power'}: {_words([wanted[place] for place in kept])}"
+        + (f"; dropped: {_words(left)}, with {rest:.2g} of the power." if left else ".")
     )
     return RunUp(
         rows * PER_MINUTE,
