@@ -23,6 +23,7 @@ from rattle.recordings.order_windows import fit_window, mean_course
 
 FORM = "rattle encoders 1"
 RATIO = 1e-3  # by which the speeds of the gears may differ from what their base radii say
+SAMPLES, FEW = 1500, 500  # a period: taken at least, and below which impacts are blurred
 STEADY = 0.05  # of the speed, by which it may change
 HIGHEST = 16.0  # order of the driver that is looked for
 STANDING_OUT = 5.0  # standard errors
@@ -50,14 +51,21 @@ class Shaft:
 
 
 def relative_motion(
-    driver: ShaftAngle, loose: ShaftAngle, geometry: Geometry, period_order: float
+    driver: ShaftAngle, loose: ShaftAngle, geometry: Geometry, period_order: float, notes: list[str]
 ) -> tuple[Motion, Shaft]:
     """The motion of the loose gear along the line of action, and that of the driver.
 
-    The force repeats `period_order` times a revolution of the driver.
+    The force repeats `period_order` times a revolution of the driver. Doubts are appended to `notes`.
     """
     begin, end = max(driver.time[0], loose.time[0]), min(driver.time[-1], loose.time[-1])
-    step = float(np.median(np.diff(driver.time)))
+    steps = [float(np.median(np.diff(shaft.time))) for shaft in (driver, loose)]
+    period = 60.0 / (period_order * driver.mean_speed_rpm)
+    step = min(*steps, period / SAMPLES)
+    if max(steps) > period / FEW:
+        notes.append(
+            f"The encoders have {period / max(steps):.0f} samples or lines a period of the force; fewer than "
+            f"{FEW} blur impacts."
+        )
     if end - begin < 64.0 * step:
         raise RecordingError(
             "the encoders have no time in common; they are of different recordings or clocks."
@@ -199,7 +207,7 @@ def run(arguments: argparse.Namespace) -> int:
         lines = arguments.lines[place] if arguments.lines else None
         shafts.append(_encoder(choose(recorded, name), lines, arguments))
         notes += [note for note in shafts[-1].notes if note not in notes]
-    motion, shaft = relative_motion(*shafts, geometry, period_order)
+    motion, shaft = relative_motion(*shafts, geometry, period_order, notes)
     found = look(motion)
     told = as_dict(found, shaft, geometry, period_order, motion.step, arguments.temperature)
     text = json.dumps(told, indent=2) + "\n"
