@@ -19,7 +19,7 @@ _DERIVED = re.compile(r"^! derived: (\S+) = (.*?)(?: [^\d\s]\S*)*$")
 def derived(input: Input, *, gear: str | None = None, set: Mapping[str, Any] | None = None) -> dict[str, str]:
     """Keys of an input as 'group.key' with their values as --check writes them, and what it derives.
 
-    Raises InputError for bad input, CommandError for a gear that there is not.
+    Raises InputError for bad input, CommandError for one of no motion or a gear that there is not.
     """
     text = text_of(input)
     settings = [f"{key}={literal(value)}" for key, value in (set or {}).items()]
@@ -29,6 +29,9 @@ def derived(input: Input, *, gear: str | None = None, set: Mapping[str, Any] | N
         raise InputError(read_faults(ended.stderr), BAD_INPUT)
     starts = [found.start() for found in _PAIR.finditer(ended.stdout)]
     pairs = [_values(ended.stdout[a:b]) for a, b in zip(starts, [*starts[1:], None], strict=True)]
+    task = pairs[0].get("scene.task", "").strip("'")
+    if task != "motion":
+        raise CommandError(f"{given} is the input of a {task}; that of a motion is needed, without &{task}.")
     names = [pair.get("gear.name", "").strip("'") for pair in pairs]
     if len(pairs) == 1 and gear in (None, names[0]):
         return pairs[0]

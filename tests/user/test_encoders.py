@@ -284,6 +284,46 @@ def test_what_is_no_loose_gear_is_refused(
     assert not (tmp_path / "bench.json").exists()
 
 
+def test_channels_must_be_two_encoders_at_one_speed(bench: Bench, measured: Path, tmp_path: Path) -> None:
+    code, _, complained = measure(measured, channels=("loose", "loose"))
+    assert code == 2 and "two encoders are two channels" in complained
+    # A speed that rises by a tenth over the recording.
+    time = bench.time - bench.time[0]
+    faster = time + 0.05 * time**2 / time[-1]
+    (tmp_path / "bench.nml").write_text(INPUT)
+    bench.write(
+        tmp_path / "bench.csv", change=lambda a, b: (np.interp(faster, time, a), np.interp(faster, time, b))
+    )
+    code, _, complained = measure(tmp_path, "--part", "0,1")
+    assert code == 2 and "at a steady speed" in complained
+
+
+def test_lines_of_pulses_are_encoders_too(bench: Bench, tmp_path: Path) -> None:
+    """Sines of 400 and 1000 lines a revolution, without steps: no noise, but few lines a period."""
+    driver, loose = bench.angles()
+    columns = [bench.time - bench.time[0], np.sin(400.0 * driver), np.sin(1000.0 * loose)]
+    head = "time [s],driver [V],loose [V]"
+    path = tmp_path / "bench.csv"
+    np.savetxt(path, np.column_stack(columns), delimiter=",", fmt="%.7g", header=head, comments="")
+    (tmp_path / "bench.nml").write_text(INPUT)
+    code, said, complained = measure(tmp_path, "--lines", "400,1000")
+    assert code == 0 and "147 samples or lines a period" in said, complained
+    found = told(tmp_path)
+    assert found["play"]["value"] == pytest.approx(1e-4, rel=0.01)
+    assert found["drag_over_inertia"]["value"] == pytest.approx(ratio(bench), rel=0.03)
+
+
+def test_a_campaign_is_no_input_of_a_motion(measured: Path) -> None:
+    campaign = (
+        "&campaign vary = 'gear.backlash', first = 1e-4, last = 2e-4, count = 2, record = 'verdict' /\n"
+    )
+    (measured / "map.nml").write_text(
+        INPUT.split("&spectrum")[0].replace("name = 'bench'", "task = 'campaign'") + campaign
+    )
+    code, _, complained = called_here("calibrate.py", "map.nml", "bench.json", cwd=measured)
+    assert code == 2 and "the input of a campaign; that of a motion is needed" in complained
+
+
 def test_other_files_are_not_calibrated(measured: Path) -> None:
     for text, words in (("{", "is no file of"), ('{"form": "x"}', "its form is not")):
         (measured / "other.json").write_text(text)

@@ -123,7 +123,8 @@ def draw(
         norm = LogNorm(top / 10.0**DECADES, top)
         _cells(axes, shown, norm)
         axes.set_title(title, pad=18.0)
-        axes.set_xlabel("Order of the shaft [-]")
+        if axes is panels[-1] or not narrow:
+            axes.set_xlabel("Order of the shaft [-]")
         if axes is panels[0] or narrow:
             axes.set_ylabel("Shaft speed [1/min]")
         figure.colorbar(

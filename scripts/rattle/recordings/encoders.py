@@ -23,6 +23,8 @@ from rattle.recordings.order_windows import fit_window, mean_course
 
 FORM = "rattle encoders 1"
 RATIO = 1e-3  # by which the speeds of the gears may differ from what their base radii say
+SAMPLES, FEW = 1500, 500  # a period: taken at least, and below which impacts are blurred
+STEADY = 0.05  # of the speed, by which it may change
 HIGHEST = 16.0  # order of the driver that is looked for
 STANDING_OUT = 5.0  # standard errors
 LEAST_SHARE = 0.01  # of the strongest order
@@ -49,14 +51,21 @@ class Shaft:
 
 
 def relative_motion(
-    driver: ShaftAngle, loose: ShaftAngle, geometry: Geometry, period_order: float
+    driver: ShaftAngle, loose: ShaftAngle, geometry: Geometry, period_order: float, notes: list[str]
 ) -> tuple[Motion, Shaft]:
     """The motion of the loose gear along the line of action, and that of the driver.
 
-    The force repeats `period_order` times a revolution of the driver.
+    The force repeats `period_order` times a revolution of the driver. Doubts are appended to `notes`.
     """
     begin, end = max(driver.time[0], loose.time[0]), min(driver.time[-1], loose.time[-1])
-    step = float(np.median(np.diff(driver.time)))
+    steps = [float(np.median(np.diff(shaft.time))) for shaft in (driver, loose)]
+    period = 60.0 / (period_order * driver.mean_speed_rpm)
+    step = min(*steps, period / SAMPLES)
+    if max(steps) > period / FEW:
+        notes.append(
+            f"The encoders have {period / max(steps):.0f} samples or lines a period of the force; fewer than "
+            f"{FEW} blur impacts."
+        )
     if end - begin < 64.0 * step:
         raise RecordingError(
             "the encoders have no time in common; they are of different recordings or clocks."
@@ -95,6 +104,12 @@ def _orders(time: np.ndarray, angle: np.ndarray, period_order: float) -> Shaft:
     course = mean_course(time, angle, max(1, math.ceil(1.0 / period_order - 1e-9)))
     phase = course.phase(time)
     speed = float((phase[-1] - phase[0]) / (time[-1] - time[0]))
+    slow, fast = np.percentile(course.speed, (1.0, 99.0)) * 30.0 / math.pi
+    if fast - slow > STEADY * slow:
+        raise RecordingError(
+            f"the speed of the driver goes from {slow:.4g} to {fast:.4g} 1/min; two encoders are evaluated "
+            "at a steady speed: choose a part by --part."
+        )
     top = min(HIGHEST, 0.4 * math.pi / (speed * float(time[1] - time[0])))
     orders = period_order * np.arange(1, int(top / period_order + 1e-9) + 1)
     middle = 0.5 * (phase[0] + phase[-1])
@@ -183,12 +198,16 @@ def run(arguments: argparse.Namespace) -> int:
     geometry, period_order = _pair(arguments)
     notes: list[str] = []
     recorded = options.read(arguments, notes)
-    shafts = []
+    shafts: list[ShaftAngle] = []
+    if choose(recorded, arguments.driver) is choose(recorded, arguments.loose):
+        raise RecordingError(
+            f"--driver and --loose are both '{arguments.driver}'; two encoders are two channels."
+        )
     for place, name in enumerate((arguments.driver, arguments.loose)):
         lines = arguments.lines[place] if arguments.lines else None
         shafts.append(_encoder(choose(recorded, name), lines, arguments))
         notes += [note for note in shafts[-1].notes if note not in notes]
-    motion, shaft = relative_motion(*shafts, geometry, period_order)
+    motion, shaft = relative_motion(*shafts, geometry, period_order, notes)
     found = look(motion)
     told = as_dict(found, shaft, geometry, period_order, motion.step, arguments.temperature)
     text = json.dumps(told, indent=2) + "\n"

@@ -142,6 +142,10 @@ def look(motion: Motion) -> Flights:
 def _smoothed(values: np.ndarray, noise: float, edges: np.ndarray) -> tuple[np.ndarray, int]:
     """Values smoothed by parabolas over as few samples as the noise asks for, and their number."""
     span = float(np.median([np.ptp(part) for part in np.split(values, edges)[1:-1]]))
+    if not span > 0.0:
+        raise RecordingError(
+            "the loose gear does not move against the driver at all; are these two encoders?"
+        )
     wanted = 2.25 * (noise / (NOISE_SOUGHT * span)) ** 2
     window = int(min(max(5.0, wanted), max(5.0, SMOOTH * np.median(np.diff(edges))))) | 1
     return signal.savgol_filter(values, window, 2), window

@@ -21,6 +21,7 @@ CYCLES = 2  # a window reaches so many cycles either way at least
 ROWS = 30  # of a table, or some less
 RESOLVED = 0.8  # of the Nyquist frequency at the highest speed
 SEEN = 3e-3  # of the strongest order of a speed: orders below it are not looked at
+STEADY = 0.05  # of the speed: less change is no run-up
 UNCERTAIN = 0.02  # of an amplitude: larger errors are warned of
 LEAST_SAMPLES = 64
 # How often a signal is differentiated to an acceleration, by its unit.
@@ -90,7 +91,13 @@ def track_run_up(
     phase = course.phase(time)
     # What rotates is no oscillation; its slow rest is fitted in each window.
     values = values - np.polynomial.Polynomial.fit(phase, values, 1)(phase)
-    top = RESOLVED * math.pi / (float(np.median(np.diff(time))) * float(np.max(course.speed)))
+    # Samples of a wheel are equally far apart in angle, others in time.
+    top = RESOLVED * math.pi / float(np.percentile(np.diff(phase), 99.0))
+    if top < 1.0 / cycle_revolutions:
+        raise RecordingError(
+            f"at the highest speed samples are {math.degrees(RESOLVED * math.pi / top):.3g} deg apart, "
+            "which shows no order; sample faster."
+        )
     if orders and max(orders) > top:
         raise RecordingError(
             f"order {max(orders):g} is beyond what the samples show at the highest speed; {top:.3g} is not."
@@ -130,8 +137,8 @@ def track_run_up(
     rest = 1.0 - float(np.sum(powers[kept]) / np.sum(powers))
     left = [order for order, stays in zip(wanted, is_kept, strict=True) if not stays]
     notes.append(
-        f"Orders {_words([wanted[place] for place in kept])} are kept"
-        + (f", {_words(left)} dropped: {rest:.2g} of the power." if left else ".")
+        f"Orders kept{'' if asked else ' by power'}: {_words([wanted[place] for place in kept])}"
+        + (f"; dropped: {_words(left)}, with {rest:.2g} of the power." if left else ".")
     )
     return RunUp(
         rows * PER_MINUTE,
@@ -147,6 +154,11 @@ def track_run_up(
 def _rows(course: Course, step: float | None, phase: np.ndarray, reach: float) -> np.ndarray:
     """Speeds [rad/s] of the rows: multiples of the step about which half a window at least was recorded."""
     low, high = sorted(float(speed) * PER_MINUTE for speed in (course.speed[0], course.speed[-1]))
+    if high - low < STEADY * high:
+        raise RecordingError(
+            f"the speed goes from {low:.4g} to {high:.4g} 1/min, which is no run-up; "
+            "'recording.py cycle' takes steady recordings."
+        )
     if step is None:
         raw = (high - low) / ROWS
         power = 10.0 ** math.floor(math.log10(raw))
@@ -156,8 +168,7 @@ def _rows(course: Course, step: float | None, phase: np.ndarray, reach: float) -
     speeds = speeds[(centres > phase[0] + 0.5 * reach) & (centres < phase[-1] - 0.5 * reach)]
     if len(speeds) < 2:
         raise RecordingError(
-            f"the speed goes from {low:.4g} to {high:.4g} 1/min; a table needs two rows, here {step:g} 1/min "
-            "apart. A steady recording is for 'recording.py cycle'."
+            f"the speed goes from {low:.4g} to {high:.4g} 1/min; a table needs two rows, here {step:g} apart."
         )
     return speeds
 
@@ -252,9 +263,10 @@ def run(arguments: argparse.Namespace) -> int:
     shaft = options.angle_of(arguments, shaft_channel)
     notes += shaft.notes
     if arguments.signal:
-        signal = mending.mended(choose(recorded, arguments.signal), mend=arguments.mend, notes=notes)
+        signal = choose(recorded, arguments.signal)
     else:
         signal = own_motion(shaft_channel, shaft, is_speed=arguments.speed is not None)
+    signal = mending.mended(signal, mend=arguments.mend, notes=notes)
     unit = signal_unit(signal)
     found = track_run_up(
         signal.time,
