@@ -48,7 +48,7 @@ def parse_groups(text: str) -> f90nml.Namelist:
 
 def _plain(text: str) -> str:
     """The groups alone, in the spelling that the parser knows: no q exponents, no open ends before a stride."""
-    text = text.removeprefix("\ufeff")
+    text = re.sub("[\f\x1a\ufeff]", " ", text)
     parts = []
     at = 0
     while opening := _OPENING.search(text, at):

@@ -13,7 +13,7 @@ module test_namelist_standard
    real(dp), parameter :: unset_number = -77.0_dp
    character(*), parameter :: unset_word = '?'
 
-   character(96), parameter :: texts(38) = [character(96) :: &
+   character(96), parameter :: texts(37) = [character(96) :: &
       'first = 3*50.0', &
       'first = 2*, 5.0', &
       'first = 2* 5.0', &
@@ -35,7 +35,6 @@ module test_namelist_standard
       'first(3:1:-1) = 1, 2, 3', &
       'first(6:2:-2) = 3*4.0', &
       'first(1:5:2) = 1, , 3, first(2:4:2) = 2*9.0', &
-      'first(2) = 1, 2, 3', &
       'first( 2 ) = 1', &
       'first(3)=3.0, first(1)=2.0 first(2)=1', &
       'first(2:4) = 2*', &
