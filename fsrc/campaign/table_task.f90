@@ -69,6 +69,8 @@ module table_task
       real(dp) :: started = 0.0_dp
       type(campaign_progress_t) :: progress
       type(log_t) :: log
+      !> Path of the log
+      type(word_t) :: paths(1)
       type(output_lock_t) :: lock
       !> Why the run is refused
       type(fault_list_t) :: faults
@@ -213,7 +215,7 @@ contains
       end if
       if (opening%is_begun) then
          if (exit_code /= exit_complete) call opening%undo()
-         call drop_aside([word_t(log_path(task%scene))])
+         call drop_aside(opening%paths)
       end if
    end subroutine open_task
 
@@ -229,7 +231,9 @@ contains
          call claim_output_place(self%scene, self%file, self%lock, self%faults, self%error)
          self%is_refused = allocated(self%error) .or. self%faults%count() > 0
          if (self%is_refused) return
-         call set_aside([word_t(log_path(self%scene))])
+         ! gfortran 12 loses the texts of a list that is built of function results.
+         self%paths(1)%text = log_path(self%scene)
+         call set_aside(self%paths)
          self%is_begun = .true.
          call self%log%open(log_path(self%scene), self%quiet, self%error)
          self%is_refused = allocated(self%error)
@@ -249,7 +253,7 @@ contains
       call self%log%close()
       call delete_file(log_path(self%scene))
       call delete_file(progress_path(self%scene))
-      call bring_back([word_t(log_path(self%scene))])
+      call bring_back(self%paths)
    end subroutine undo
 
    !> What will be solved, how, and what is odd about it.
