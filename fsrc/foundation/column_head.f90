@@ -60,19 +60,15 @@ contains
       character(:), allocatable :: plain
       type(unit_t) :: below
       real(dp) :: factor, added
-      integer :: first, last, at, width
+      integer :: at, width
 
       plain = trim(adjustl(plain_letters(text)))
       head%name = plain
       head%word = ''
-      first = scan(plain, '[(', back=.true.)
-      last = len(plain) + 1
-      if (first > 0) last = first + scan(plain(first:)//')', '])') - 1
-      if (first > 0) then
-         head%unit = unit_of_text(plain(first + 1:last - 1))
-         ! Round brackets hold anything.
-         if (head%unit%is_known .or. plain(first:first) == '[') call take(plain(first + 1:last - 1), first - 1)
-      end if
+      call take_brackets('[', ']', .false.)
+      ! Round brackets hold anything, also brackets.
+      if (len(head%word) == 0) call take_brackets('(', ')', .false.)
+      if (len(head%word) == 0) call take_brackets('(', ')', .true.)
       at = index(plain, ' / ')
       width = 3
       if (at == 0) at = index(plain, ' in ')
@@ -96,6 +92,20 @@ contains
       call take(row, len(head%name))
 
    contains
+
+      !> Take a unit that stands in brackets: the first or last that open, and the last that close.
+      pure subroutine take_brackets(opening, closing, is_last)
+         character(1), intent(in) :: opening
+         character(1), intent(in) :: closing
+         logical, intent(in) :: is_last
+         integer :: first, last
+
+         first = index(plain, opening, back=is_last)
+         last = index(plain, closing, back=.true.)
+         if (first == 0 .or. last < first) return
+         head%unit = unit_of_text(plain(first + 1:last - 1))
+         if (head%unit%is_known .or. opening == '[') call take(plain(first + 1:last - 1), first - 1)
+      end subroutine take_brackets
 
       !> Take a unit, and the name up to it.
       pure subroutine take(word, name_length)

@@ -54,10 +54,12 @@ contains
          if (i <= last .or. .not. height > least_height*range) cycle
          last = i
          if (i < n) then
-            if (abs(samples(i + 1) - smooth(i + 1)) > least_height*range) last = i + 1
+            if (abs(samples(i + 1) - smooth(i + 1)) > max(least_height*range, 0.5_dp*height)) last = i + 1
          end if
          spike = outlier_t(i, last, samples(i), at(samples, i - 1, closes), at(samples, last + 1, closes))
-         if (abs(spike%before - spike%behind) > most_difference*height) cycle
+         ! Beside a spike the signal goes on as if there were none; the flanks of a narrow pulse do not.
+         if (max(abs(spike%before - spike%behind), abs(spike%before - at(samples, i - 2, closes)), &
+                 abs(spike%behind - at(samples, last + 2, closes))) > most_difference*height) cycle
          if (.not. is_far(samples, i, height, closes) .or. repeats(samples, i, length, height)) cycle
          spikes = [spikes, spike]
       end do

@@ -23,9 +23,11 @@ contains
       character(:), allocatable :: command
 
       command = script//shown(path)
-      if (len(input%word(group//'.signal_column')) > 0) command = command//" --channel '"//input%word(group//'.signal_column')//"'"
-      if (group == 'shaft') command = command//' --revolutions '//integer_text(input%count('shaft.cycle_revolutions'))
-      if (present(option)) command = command//' '//option
+      if (len(input%word(group//'.signal_column')) > 0) command = command//' --signal '// &
+                                                                  shown(input%word(group//'.signal_column'))
+      if (group == 'shaft') command = command//' --cycle-revolutions '//integer_text(input%count('shaft.cycle_revolutions'))
+      if (group == 'load') command = command//' --cycle-revolutions 1'
+      if (present(option)) command = trim(command//' '//option)
       command = command//' --output '//named(path, 'cycle')
    end function command_of_cycle
 

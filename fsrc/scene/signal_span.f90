@@ -232,8 +232,9 @@ contains
          words = 'if it is in us, name it time_us'
       else
          ! An engine does not change its speed to suit a record: whole cycles are cut out of it.
-         words = 'cut whole cycles out: '//command_of_cycle(input, group, path)
-         if (real(size(recording%samples), dp) < per_cycle) words = 'it holds no whole cycle'
+         words = 'cut whole cycles out: '//command_of_cycle(input, group, path, option_of_speed())
+         if (real(size(recording%samples), dp) < per_cycle) words = 'it holds no whole cycle: '// &
+                                                                   'record more than one, or give one over its angle'
          if (group == 'load') return
          revolutions = whole_revolutions()
          if (revolutions > 0) words = 'cycle_revolutions = '//integer_text(revolutions)// &
@@ -252,6 +253,19 @@ contains
             repeats_its_start = whole > 0 .and. abs(real(before_last, dp) - real(whole, dp)*per_cycle) <= near
          end associate
       end function repeats_its_start
+
+      !> What tells the script the speed of a recording over time; it finds that of a speed itself.
+      function option_of_speed() result(option)
+         character(:), allocatable :: option
+
+         option = ''
+         if (unit%kind == angle_axis) return
+         if (group == 'load') then
+            option = '--speed-near '//plain_number(60.0_dp*input%number('load.frequency'))
+         else if (input%word('shaft.signal_kind') == 'angular_acceleration') then
+            option = '--speed-near '//plain_number(input%number('shaft.speed_rpm'))
+         end if
+      end function option_of_speed
 
       !> Whether an axis of time without a unit fits in this one.
       logical function fits_in(word)

@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis as MatplotlibAxis
 from matplotlib.colors import LogNorm, Normalize
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
@@ -181,6 +182,28 @@ def where_law_fails(campaign: Campaign) -> tuple[np.ndarray, str] | None:
 def doubt_patch(words: str, doubt: Doubt) -> Patch:
     """What a scene that is not verified looks like in a legend: hatched, whatever its colour."""
     return Patch(facecolor=doubt.colour, edgecolor="black", hatch=doubt.hatch, linewidth=0.6, label=words)
+
+
+def measured_speeds(campaign: Campaign) -> tuple[float, float] | None:
+    """Lowest and highest speed [1/min] for which the motion of the shaft was measured, where that is known."""
+    ends = campaign.input.get("shaft", {}).get("signal_speed_range")
+    return (float(ends[0]), float(ends[1])) if ends else None
+
+
+def draw_measured_speeds(axes: Axes, campaign: Campaign, keys: Mapping[str, str]) -> list[Line2D]:
+    """Dotted lines where the speeds end for which the motion was measured; `keys` of the axes by "x" and "y"."""
+    ends = measured_speeds(campaign)
+    along = [which for which, key in keys.items() if key == "shaft.speed_rpm"]
+    if ends is None or not along:
+        return []
+    line = {"color": "black", "linestyle": ":", "linewidth": 1.6}
+    limits = axes.get_xlim() if along[0] == "x" else axes.get_ylim()
+    for end in ends:
+        if min(limits) < end < max(limits):
+            (axes.axvline if along[0] == "x" else axes.axhline)(end, **line)
+    if ends[0] <= min(limits) and max(limits) <= ends[1]:
+        return []
+    return [Line2D([], [], label=f"shaft measured at {ends[0]:.5g} to {ends[1]:.5g} 1/min only", **line)]
 
 
 def gap_patch(words: str, hatch: str) -> Patch:

@@ -201,6 +201,7 @@ def draw_cells(
         handles += _hatch_doubt(axes, edges, section.mask(doubt.scenes), doubt)
     look.set_axis(axes, "x", x, to_edges=True)
     look.set_axis(axes, "y", y, to_edges=True)
+    handles += look.draw_measured_speeds(axes, campaign, {"x": x.key, "y": y.key})
     return handles, drawn
 
 
@@ -246,6 +247,7 @@ def scatter(
         handles = [*without(handles, doubt.words), Line2D([], [], marker=marker, label=words, **outline)]
     for which, key in (("x", x), ("y", y)):
         look.set_axis(axes, which, campaign.axis(key), to_edges=False)
+    handles += look.draw_measured_speeds(axes, campaign, {"x": x, "y": y})
     return handles, drawn
 
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from rattle.campaign_section import Section
@@ -24,12 +25,15 @@ def draw(section: Section, columns: Sequence[str]) -> Figure:
     axis = section.free[0]
     figure = Figure(figsize=(style.WIDTH, 1.3 + 1.55 * len(columns)))
     panels = figure.subplots(len(columns), 1, sharex=True, squeeze=False)[:, 0]
-    handles: dict[str, Patch] = {}
+    handles: dict[str, Patch | Line2D] = {}
     for panel, column in zip(panels, columns, strict=True):
         _draw_bands(panel, section, handles)
         _draw_column(panel, section, column)
         panel.set_ylabel(look.column_label(campaign, column).replace(" [", "\n["))
     look.set_axis(panels[0], "x", axis, to_edges=True)
+    for panel in panels:
+        measured = look.draw_measured_speeds(panel, campaign, {"x": axis.key})
+        handles |= {line.get_label(): line for line in measured}
     for panel in panels[:-1]:
         panel.set_xlabel("")
     panels[-1].set_xlabel(look.axis_label(axis))
