@@ -1,6 +1,7 @@
 !> From &campaign to a plan of scenes: which keys vary, which values they take, how many scenes that makes.
 module campaign_plan
    use campaign_axis, only: campaign_axis_t
+   use completed_scene, only: beyond_measured_speeds
    use csv_samples, only: csv_samples_t, read_csv_samples
    use errors, only: fault_list_t
    use key_table, only: key_name
@@ -59,13 +60,17 @@ contains
             call check_position(scene, scene%campaign%csv, key_name(samples%positions(i)), samples%positions(i), faults)
          end do
          if (faults%count() > before) return
+         warnings = samples%notes
          do i = 1, size(samples%positions)
-            ! The header is the first line.
             warnings = [warnings, odd_numbers_of_list(printable(scene%campaign%csv, .false.), 'column '//integer_text(i), &
-                                                      samples%positions(i), samples%values(i, :samples%read), 2)]
+                                                      samples%positions(i), samples%values(i, :samples%read), samples%first_line)]
+            if (key_name(samples%positions(i)) == 'shaft.speed_rpm' .and. samples%read > 0_int64) &
+               warnings = [warnings, beyond_measured_speeds(scene, minval(samples%values(i, :samples%read)), &
+                                                            maxval(samples%values(i, :samples%read)))]
          end do
          call plan_table(samples%positions, samples%values, plan)
          plan%known = samples%read
+         plan%first_line = samples%first_line
       else if (size(scene%campaign%vary) == 0) then
          ! A threshold without axes has one trace.
          allocate (samples%positions(0), samples%values(0, 1))
@@ -211,7 +216,8 @@ contains
          character(*), parameter :: remedy = '; &campaign allow_invalid = .true. records it as an invalid scene'
 
          if (len(scene%campaign%csv) > 0) then
-            call faults%add(scene%campaign%csv, int(min(number + 1_int64, int(huge(1), int64))), '', '', why//remedy)
+            call faults%add(scene%campaign%csv, int(min(number + int(plan%first_line - 1, int64), int(huge(1), int64))), '', '', &
+                            why//remedy)
          else
             call faults%add(file, 0, 'campaign', '', 'scene '//integer_text(number)//' is no valid scene: '//why//remedy)
          end if

@@ -22,6 +22,8 @@ module sampling
       integer(int64) :: size = 0_int64
       !> Those whose values are known, the first ones: all, but where the reading of a table had to stop
       integer(int64) :: known = 0_int64
+      !> Line of the first scene of a table in its file
+      integer :: first_line = 2
       !> Varied keys by their position in the key table, in the order of the values
       integer, allocatable :: positions(:)
       type(campaign_axis_t), allocatable :: axes(:)

@@ -10,7 +10,7 @@ module completed_scene
    use loose_gear_drag, only: gap_is_turbulent
    use oil_data, only: kinematic_viscosity, least_viscosity_meant
    use scene_rules, only: rule_t
-   use scene_types, only: drag_computed, drag_given, scene_t, set_number, task_sweep
+   use scene_types, only: drag_computed, drag_given, scene_t, set_number, task_sweep, task_threshold
    use text, only: short_text
    use word_list, only: word_t
    implicit none(type, external)
@@ -19,7 +19,7 @@ module completed_scene
    !> A temperature farther from those of the data sheet than these are apart deserves a warning [K].
    real(dp), parameter :: farthest_beyond_data = 60.0_dp
 
-   public :: complete_scene
+   public :: complete_scene, beyond_measured_speeds
 
 contains
 
@@ -31,6 +31,7 @@ contains
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
       type(rule_t), allocatable :: broken(:)
+      real(dp) :: ends(2)
       integer :: i, dot
 
       if (.not. (scene%gear%given .or. scene%oil%given)) return
@@ -46,6 +47,8 @@ contains
       if (scene%task == task_sweep) call check_sweep(scene, faults)
       if (scene%oil%given) call tell_oil(scene)
       if (scene%gear%given) call tell_gear(scene)
+      ends = ends_of_key(scene, 'shaft.speed_rpm', scene%shaft%speed_rpm)
+      if (scene%gear%given) scene%warnings = [scene%warnings, beyond_measured_speeds(scene, ends(1), ends(2))]
    end subroutine complete_scene
 
    !> The scenes at all values of a sweep can be derived.
@@ -77,7 +80,7 @@ contains
       real(dp) :: thin, ends(2)
       real(dp), parameter :: low = 40.0_dp, high = 100.0_dp
 
-      ends = temperatures(scene)
+      ends = ends_of_key(scene, 'oil.temperature_celsius', scene%oil%temperature_celsius)
       if (ends(1) < low - farthest_beyond_data) &
          call warn(ends(1), low - ends(1), ', and near its pour point an oil leaves that line')
       if (ends(2) > high + farthest_beyond_data) call warn(ends(2), ends(2) - high, '')
@@ -105,20 +108,28 @@ contains
 
    end subroutine tell_oil
 
-   !> Lowest and highest temperature of the oil in what an input asks for [degC].
-   pure function temperatures(scene) result(ends)
+   !> Lowest and highest value of a key in what an input asks for, but for those of a table of scenes.
+   pure function ends_of_key(scene, name, own) result(ends)
       type(scene_t), intent(in) :: scene
+      !> As group.name
+      character(*), intent(in) :: name
+      !> Its value in the input
+      real(dp), intent(in) :: own
       real(dp) :: ends(2)
-      integer :: i, key
+      integer :: i
 
-      ends = scene%oil%temperature_celsius
-      key = find_key('oil.temperature_celsius')
+      ends = own
       if (scene%task == task_sweep) then
-         if (scene%sweep%key == key) ends = [minval(scene%sweep%values), maxval(scene%sweep%values)]
+         if (scene%sweep%key == find_key(name)) ends = [minval(scene%sweep%values), maxval(scene%sweep%values)]
+      end if
+      if (scene%task == task_threshold) then
+         associate (threshold => scene%threshold)
+            if (threshold%key == name) ends = [min(threshold%first, threshold%last), max(threshold%first, threshold%last)]
+         end associate
       end if
       if (.not. allocated(scene%campaign%vary)) return
       do i = 1, size(scene%campaign%vary)
-         if (scene%campaign%vary(i)%text /= 'oil.temperature_celsius') cycle
+         if (scene%campaign%vary(i)%text /= name) cycle
          associate (campaign => scene%campaign)
             if (i <= min(size(campaign%first), size(campaign%last))) &
                ends = [min(campaign%first(i), campaign%last(i)), max(campaign%first(i), campaign%last(i))]
@@ -127,7 +138,29 @@ contains
                ends = [minval(campaign%values(i)%numbers), maxval(campaign%values(i)%numbers)]
          end associate
       end do
-   end function temperatures
+   end function ends_of_key
+
+   !> That speeds lie beyond those for which the motion of the shaft was measured; no line if none do.
+   pure function beyond_measured_speeds(scene, lowest, highest) result(lines)
+      type(scene_t), intent(in) :: scene
+      !> Of the speeds [1/min]
+      real(dp), intent(in) :: lowest
+      real(dp), intent(in) :: highest
+      type(word_t), allocatable :: lines(:)
+      character(:), allocatable :: speeds
+
+      allocate (lines(0))
+      if (.not. allocated(scene%shaft%signal_speed_range)) return
+      associate (range => scene%shaft%signal_speed_range)
+         if (lowest >= range(1) .and. highest <= range(2)) return
+         speeds = short_text(lowest, 5)
+         if (highest > lowest) speeds = speeds//' to '//short_text(highest, 5)
+         lines = [word_t('warning: the motion of the shaft was measured for '//short_text(range(1), 5)//' to '// &
+                         short_text(range(2), 5)//' 1/min (&shaft signal_speed_range) and is carried with the same amplitudes '// &
+                         'to '//speeds//' 1/min: what is computed outside is of a motion that was not measured; '// &
+                         'a run-up (&shaft table) has one for each speed')]
+      end associate
+   end function beyond_measured_speeds
 
    !> What follows from &gear and &shaft.
    subroutine tell_gear(scene)

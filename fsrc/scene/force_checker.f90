@@ -120,6 +120,7 @@ contains
                                                         'this group is required where &shaft stands: it says what is driven')
       if (any([(input%is_faulty('shaft.'//lists(i)), i=1, size(lists))])) return
       if (input%is_given('shaft.table') .or. input%is_faulty('shaft.table')) return
+      call check_speed_range(input)
       if (input%is_given('shaft.accelerations') .and. input%is_given('shaft.speed_amplitudes')) then
          call input%refuse('shaft.speed_amplitudes', rule)
       else if (.not. (input%is_given('shaft.accelerations') .or. input%is_given('shaft.speed_amplitudes'))) then
@@ -135,6 +136,19 @@ contains
          end if
       end do
    end subroutine check_shaft
+
+   !> The speeds for which a motion was measured are two, ascending.
+   subroutine check_speed_range(input)
+      type(scene_input_t), intent(inout) :: input
+      real(dp), allocatable :: ends(:)
+
+      if (.not. input%is_given('shaft.signal_speed_range') .or. input%is_faulty('shaft.signal_speed_range')) return
+      allocate (ends, source=input%numbers('shaft.signal_speed_range'))
+      if (size(ends) == 2) then
+         if (ends(1) <= ends(2)) return
+      end if
+      call input%refuse('shaft.signal_speed_range', 'the lowest and the highest speed are needed, in this order: two values')
+   end subroutine check_speed_range
 
    !> Every list has as many values as the first.
    subroutine check_lengths(input, group, lists)

@@ -121,7 +121,7 @@ module key_table
             sensible=[-1.0e6_dp, 1.0e6_dp], computable=a_signed_force), &
       key_t('load', 'signal', text_kind, '', '', any_number, '', of_motions, &
             'CSV file, in the folder of this input, with cycles of the force [N], uniformly sampled; it becomes force_orders '// &
-            'and, by its mean, force_mean. A column of time or angle, its unit in its name, must fit frequency.', &
+            'and, by its mean, force_mean. A column of time or angle, with its unit, must fit frequency.', &
             given_by='shaft'), &
       key_t('load', 'signal_column', text_kind, '', '', any_number, '', of_motions, &
             'Name of the signal in the header of the file; absent: the only column that is no time or angle.', given_by='shaft'), &
@@ -273,6 +273,10 @@ module key_table
       key_t('shaft', 'cycle_revolutions', integer_kind, '-', '2', range_t(1.0_dp, .false., 1.0e4_dp, .false.), '', &
             of_listed_motions, &
             'Revolutions of the shaft in a cycle of the signal: two of a four-stroke engine.'), &
+      key_t('shaft', 'signal_speed_range', reals_kind, '1/min', '', positive, '', of_listed_motions, &
+            'Lowest and highest speed for which this motion was measured; a warning says where speeds lie beyond. Absent: a '// &
+            'tenth either way of that of the signal, its mean if it is a speed, else speed_rpm.', &
+            sensible=[1.0_dp, 1.0e5_dp], computable=[1.0e-6_dp, 1.0e9_dp]), &
       key_t('oil', 'viscosity_40_cst', real_kind, 'mm2/s', 'required', a_data_viscosity, '', '', &
             'Kinematic viscosity at 40 degC, of the data sheet.', example='58.0', sensible=[2.0_dp, 2.0e3_dp]), &
       key_t('oil', 'viscosity_100_cst', real_kind, 'mm2/s', 'required', a_data_viscosity, '', '', &

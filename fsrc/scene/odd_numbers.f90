@@ -14,6 +14,10 @@ module odd_numbers
    implicit none(type, external)
    private
 
+   !> An engine shakes no shaft so that an order has an acceleration of more than this share of the square of the mean angular speed:
+   !> 25 % of the speed at order 2
+   real(dp), parameter, public :: largest_swing = 0.5_dp
+
    public :: odd_numbers_of_input, odd_numbers_of_list, odd_swings
 
 contains
@@ -149,15 +153,13 @@ contains
       if (len(words) == 0) words = '; is it in this unit?'
    end function question
 
-   !> What is odd about the motion of a shaft at its speed: an engine shakes no shaft so that an order has an acceleration of more
-   !> than half the square of the mean angular speed, 25 % of the speed at order 2.
+   !> What is odd about the motion of a shaft at its speed.
    pure function odd_swings(input, shaft) result(lines)
       !> Typed values without a fault
       type(scene_input_t), intent(in) :: input
       !> The motion of the shaft that they, or a signal, give
       type(shaft_t), intent(in) :: shaft
       type(word_t), allocatable :: lines(:)
-      real(dp), parameter :: largest_share = 0.5_dp
       real(dp), allocatable :: accelerations(:)
       real(dp) :: speed, limit
       character(:), allocatable :: key, number, meant
@@ -169,7 +171,7 @@ contains
       if (.not. (allocated(shaft%speed_amplitudes) .or. allocated(shaft%accelerations))) return
       if (is_odd(keys(find_key('shaft.speed_rpm')), shaft%speed_rpm)) return
       speed = two_pi*shaft%speed_rpm/60.0_dp
-      limit = largest_share*speed**2
+      limit = largest_swing*speed**2
       if (allocated(shaft%speed_amplitudes)) then
          allocate (accelerations, source=shaft%speed_amplitudes*shaft%orders*speed)
       else

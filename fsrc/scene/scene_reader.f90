@@ -93,8 +93,8 @@ contains
          call inputs(i)%choose_defaults()
          call take_signal(inputs(i), 'load', scenes(i)%warnings)
          call take_signal(inputs(i), 'shaft', scenes(i)%warnings)
-         call take_drag_table(inputs(i), scenes(i)%gear)
-         call take_excitation_table(inputs(i), scenes(i)%shaft)
+         call take_drag_table(inputs(i), scenes(i)%gear, scenes(i)%warnings)
+         call take_excitation_table(inputs(i), scenes(i)%shaft, scenes(i)%warnings)
          if (is_input) call check_together(inputs(i))
          call read_name(inputs(i), path, scenes(i)%name)
          call read_pair_name(inputs(i), scenes(:i))
@@ -289,6 +289,8 @@ contains
                scene%shaft%speed_amplitudes = input%numbers('shaft.speed_amplitudes')
             scene%shaft%phases = 0.0_dp*scene%shaft%orders
             if (input%is_given('shaft.phases')) scene%shaft%phases = input%numbers('shaft.phases')
+            if (input%is_given('shaft.signal_speed_range')) &
+               scene%shaft%signal_speed_range = input%numbers('shaft.signal_speed_range')
          end if
          scene%oil%base = input%choice('oil.base')
          film%nodes = input%count('film.nodes')

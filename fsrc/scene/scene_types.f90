@@ -206,6 +206,8 @@ module scene_types
       real(dp), allocatable :: orders(:), phases(:)
       !> Amplitudes of the angular acceleration [rad/s2]; or of the angular speed [rad/s], which is differentiated at speed_rpm
       real(dp), allocatable :: accelerations(:), speed_amplitudes(:)
+      !> Lowest and highest speed for which these were measured [1/min]; absent: they were not
+      real(dp), allocatable :: signal_speed_range(:)
       !> Of which accelerations and phases follow at speed_rpm
       type(excitation_table_t), allocatable :: table
    end type shaft_t

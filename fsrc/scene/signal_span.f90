@@ -1,9 +1,10 @@
 !> How many cycles of a group a recording holds. Its axis is evidence: what it spans is held against the cycle that the keys of the
 !> group give, and what is off by more than half a sample is refused, with both numbers and the key that would mend it.
 module signal_span
-   use axis_unit, only: angle_axis, axis_unit_t, degrees, microseconds, milliseconds, no_axis, radians, seconds, time_axis
+   use column_head, only: angle_axis, axis_of, axis_unit_t, no_axis, time_axis
    use csv_signal, only: least_samples, recording_t
    use kinds, only: dp
+   use recording_command, only: command_of_cycle
    use scene_input, only: scene_input_t
    use text, only: counted, integer_text, short_text
    implicit none(type, external)
@@ -44,13 +45,14 @@ contains
          length = cycle_length(input, group, recording%axis_unit%kind)
          if (.not. length > 0.0_dp) return
          call find_unit(recording, length, asked, unit, message)
-         if (len(message) == 0) call fit_cycles(input, group, recording, unit, length, asked, cycles, message)
+         if (len(message) == 0) call fit_cycles(input, group, path, recording, unit, length, asked, cycles, message)
          basis = "by its axis '"//recording%axis_name//"' in "//trim(unit%word)
       end if
       associate (count => size(recording%samples))
          if (len(message) == 0 .and. modulo(count, max(1, cycles)) /= 0) then
             message = integer_text(count)//' samples are not '//integer_text(cycles)//' cycles of a whole number each but of '// &
-                      plain_number(real(count, dp)/real(cycles, dp))//'; sample it anew, or give another signal_cycles'
+                      plain_number(real(count, dp)/real(cycles, dp))//'; resample it, or give another signal_cycles: '// &
+                      command_of_cycle(input, group, path)
          else if (len(message) == 0 .and. count < least_samples*cycles) then
             message = integer_text(count)//' samples are too few for signal_cycles = '//integer_text(cycles)//'; a cycle needs '// &
                       integer_text(least_samples)
@@ -92,21 +94,22 @@ contains
       message = ''
       unit = recording%axis_unit
       if (unit%is_strange) message = "the unit of its axis '"//recording%axis_name// &
-                                     "' is not known; known are s, ms, us, min, deg, rad and rev"
+                                     "' is not known; known are s, ms, us, min, h, deg, rad and rev"
       if (len_trim(unit%word) > 0 .or. len(message) > 0) return
-      unit = seconds
+      unit = axis_of('s', '')
       if (recording%axis_unit%kind == time_axis) return
-      unit = degrees
-      if (whole_cycles(recording, radians, length, asked) == 0) return
-      unit = radians
-      if (whole_cycles(recording, degrees, length, asked) > 0) message = "its axis '"//recording%axis_name// &
+      unit = axis_of('deg', '')
+      if (whole_cycles(recording, axis_of('rad', ''), length, asked) == 0) return
+      unit = axis_of('rad', '')
+      if (whole_cycles(recording, axis_of('deg', ''), length, asked) > 0) message = "its axis '"//recording%axis_name// &
          "' fits in degrees and in radians; put the unit into its name, as in angle_deg or angle_rad"
    end subroutine find_unit
 
    !> How many cycles fit the axis.
-   subroutine fit_cycles(input, group, recording, unit, length, asked, cycles, message)
+   subroutine fit_cycles(input, group, path, recording, unit, length, asked, cycles, message)
       type(scene_input_t), intent(in) :: input
       character(*), intent(in) :: group
+      character(*), intent(in) :: path
       type(recording_t), intent(in) :: recording
       type(axis_unit_t), intent(in) :: unit
       !> A cycle [s] or [deg]
@@ -131,7 +134,7 @@ contains
          if (cycles > 0) return
       end if
       message = span_text(recording, unit)//', '//cycle_text(input, group, unit, length, asked)//'; '// &
-                remedy(input, group, recording, unit, length, asked)
+                remedy(input, group, path, recording, unit, length, asked)
    end subroutine fit_cycles
 
    !> How many whole cycles an axis spans, within half a sample; 0 if no number of them, or not the number that is asked for.
@@ -143,7 +146,7 @@ contains
       !> 0: any number
       integer, intent(in) :: asked
 
-      cycles = cycles_in(size(recording%samples), length/(recording%step()*unit%size), asked)
+      cycles = cycles_in(size(recording%samples), length/(recording%step*unit%size), asked)
    end function whole_cycles
 
    !> The same of a number of samples.
@@ -171,8 +174,8 @@ contains
       character(:), allocatable :: words
 
       associate (count => size(recording%samples))
-         words = "its axis '"//recording%axis_name//"' spans "//plain_number(real(count, dp)*recording%step())//' '// &
-                 trim(unit%word)//' ('//integer_text(count)//' samples, '//plain_number(recording%step())//' '// &
+         words = "its axis '"//recording%axis_name//"' spans "//plain_number(real(count, dp)*recording%step)//' '// &
+                 trim(unit%word)//' ('//integer_text(count)//' samples, '//plain_number(recording%step)//' '// &
                  trim(unit%word)//' apart)'
       end associate
    end function span_text
@@ -200,21 +203,19 @@ contains
    end function cycle_text
 
    !> What would make the axis fit.
-   function remedy(input, group, recording, unit, length, asked) result(words)
+   function remedy(input, group, path, recording, unit, length, asked) result(words)
       type(scene_input_t), intent(in) :: input
       character(*), intent(in) :: group
+      character(*), intent(in) :: path
       type(recording_t), intent(in) :: recording
       type(axis_unit_t), intent(in) :: unit
       real(dp), intent(in) :: length
       integer, intent(in) :: asked
       character(:), allocatable :: words
-      real(dp) :: per_cycle, span
-      integer :: cycles, revolutions
+      real(dp) :: per_cycle
+      integer :: revolutions
 
-      per_cycle = length/(recording%step()*unit%size)
-      span = real(size(recording%samples), dp)*recording%step()*unit%size
-      cycles = asked
-      if (asked == 0) cycles = max(1, nint(min(span/length, real(size(recording%samples)/least_samples, dp))))
+      per_cycle = length/(recording%step*unit%size)
       if (repeats_its_start()) then
          words = 'its last sample is where the next cycle begins; leave line '// &
                  integer_text(recording%lines(size(recording%lines)))//' out'
@@ -225,25 +226,18 @@ contains
          words = 'signal_cycles = 1 if the force repeats only after all of it, more if it repeats within'
          if (whole_cycles(recording, unit, length, 0) == 0) words = 'that is no whole number of turns for signal_cycles: '// &
                                                                     'name the column otherwise if it is no angle of the cycle'
-      else if (len_trim(recording%axis_unit%word) == 0 .and. whole_cycles(recording, milliseconds, length, asked) > 0 &
-               .and. unit%kind == time_axis) then
+      else if (fits_in('ms')) then
          words = 'if it is in ms, name it time_ms'
-      else if (len_trim(recording%axis_unit%word) == 0 .and. whole_cycles(recording, microseconds, length, asked) > 0 &
-               .and. unit%kind == time_axis) then
+      else if (fits_in('us')) then
          words = 'if it is in us, name it time_us'
-      else if (group == 'load') then
-         words = 'frequency = '//plain_number(real(cycles, dp)/span)//' would make it '//counted(cycles, 'cycle')
       else
+         ! An engine does not change its speed to suit a record: whole cycles are cut out of it.
+         words = 'cut whole cycles out: '//command_of_cycle(input, group, path)
+         if (real(size(recording%samples), dp) < per_cycle) words = 'it holds no whole cycle'
+         if (group == 'load') return
          revolutions = whole_revolutions()
-         words = ''
-         if (revolutions > 0) words = 'cycle_revolutions = '//integer_text(revolutions)
-         if (unit%kind == time_axis) then
-            if (revolutions > 0) words = words//' or '
-            words = words//'speed_rpm = '// &
-                    plain_number(60.0_dp*real(cycles*input%count('shaft.cycle_revolutions'), dp)/span)
-         end if
-         if (len(words) > 0) words = words//' would make it '//counted(cycles, 'cycle')
-         if (len(words) == 0) words = 'it must span whole cycles: cycle_revolutions times 360 deg'
+         if (revolutions > 0) words = 'cycle_revolutions = '//integer_text(revolutions)// &
+                                      ' if that is what a cycle of it takes; else '//words
       end if
 
    contains
@@ -259,12 +253,22 @@ contains
          end associate
       end function repeats_its_start
 
-      !> Revolutions of each cycle if they were whole within half a sample, else 0.
+      !> Whether an axis of time without a unit fits in this one.
+      logical function fits_in(word)
+         character(*), intent(in) :: word
+
+         fits_in = len_trim(recording%axis_unit%word) == 0 .and. unit%kind == time_axis .and. &
+                   whole_cycles(recording, axis_of(word, ''), length, asked) > 0
+      end function fits_in
+
+      !> Revolutions of a cycle that would fit within half a sample, else 0.
       integer function whole_revolutions()
          real(dp) :: of_one
+         integer :: cycles
 
-         of_one = length/real(input%count('shaft.cycle_revolutions'), dp)
-         whole_revolutions = cycles_in(size(recording%samples), of_one/(recording%step()*unit%size), 0)
+         of_one = per_cycle/real(input%count('shaft.cycle_revolutions'), dp)
+         whole_revolutions = cycles_in(size(recording%samples), of_one, 0)
+         cycles = max(1, asked, nint(real(size(recording%samples), dp)/per_cycle))
          if (modulo(whole_revolutions, cycles) /= 0) cycles = max(1, asked)
          if (modulo(whole_revolutions, cycles) /= 0) whole_revolutions = 0
          whole_revolutions = whole_revolutions/cycles

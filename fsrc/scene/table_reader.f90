@@ -1,6 +1,7 @@
 !> &gear drag_table and &shaft table: what was measured, from CSV files. What is wrong with a file is reported with its line and column.
 !> The rows stand as comments in the resolved input, where a run that is carried on finds them changed.
 module table_reader
+   use column_head, only: column_head_t, conversion, head_of
    use csv_table, only: csv_table_t, read_csv_table
    use errors, only: fault_list_t
    use input_entry, only: numbers_text
@@ -9,9 +10,12 @@ module table_reader
    use keys_in_use, only: in_use
    use kinds, only: dp
    use number_text, only: read_strict_real
+   use recording_command, only: command_of_run_up
    use scene_input, only: scene_input_t
    use scene_types, only: gear_t, shaft_t
-   use text, only: integer_text, real_text
+   use signal_doubts, only: doubts_of_run_up
+   use text, only: integer_text, lower, printable, real_text
+   use word_list, only: word_t
    implicit none(type, external)
    private
 
@@ -24,11 +28,13 @@ module table_reader
 contains
 
    !> Read the table of the drag, if there is one.
-   subroutine take_drag_table(input, gear)
+   subroutine take_drag_table(input, gear, notes)
       !> Typed values
       type(scene_input_t), intent(inout) :: input
       !> Gets the table
       type(gear_t), intent(inout) :: gear
+      !> A line for each column that was converted is appended
+      type(word_t), allocatable, intent(inout) :: notes(:)
       type(csv_table_t) :: csv
       character(:), allocatable :: path
       integer :: before, places(3), i, j, row
@@ -37,6 +43,9 @@ contains
       before = input%faults%count()
       call open_table(input, 'gear.drag_table', drag_example, path, csv)
       if (len(path) == 0 .or. input%faults%count() > before) return
+      call convert_columns(path, [character(12) :: 'speed', 'temperature', 'torque'], [character(6) :: '1/min', 'degC', 'N m'], &
+                           csv, notes, input%faults)
+      if (input%faults%count() > before) return
       do i = 1, size(drag_columns)
          places(i) = place_of(csv, trim(drag_columns(i)))
          if (places(i) == 0) call input%faults%add(path, csv%header, '', '', 'there is no column '//trim(drag_columns(i))// &
@@ -79,11 +88,13 @@ contains
    end subroutine take_drag_table
 
    !> Read the table of the motion of the shaft, if there is one.
-   subroutine take_excitation_table(input, shaft)
+   subroutine take_excitation_table(input, shaft, notes)
       !> Typed values
       type(scene_input_t), intent(inout) :: input
       !> Gets the table
       type(shaft_t), intent(inout) :: shaft
+      !> A line for each column that was converted, and for what is odd, is appended
+      type(word_t), allocatable, intent(inout) :: notes(:)
       type(csv_table_t) :: csv
       character(:), allocatable :: path
       real(dp), allocatable :: orders(:)
@@ -93,6 +104,9 @@ contains
       before = input%faults%count()
       call open_table(input, 'shaft.table', excitation_example, path, csv)
       if (len(path) == 0 .or. input%faults%count() > before) return
+      call convert_columns(path, [character(13) :: 'speed', 'acceleration_', 'phase_'], &
+                           [character(6) :: '1/min', 'rad/s2', 'rad'], csv, notes, input%faults)
+      if (input%faults%count() > before) return
       call sort_columns(path, csv, speed, orders, accelerations, phases, input%faults)
       if (input%faults%count() > before) return
       call check_column(path, csv, speed, 'shaft.speed_rpm', input%faults)
@@ -115,8 +129,46 @@ contains
       do i = 1, size(orders)
          if (phases(i) > 0) shaft%table%phases(:, i) = csv%values(:, phases(i))
       end do
+      notes = [notes, doubts_of_run_up(path, csv%lines, shaft%table)]
       call tell_rows(input, 'shaft.table', csv)
    end subroutine take_excitation_table
+
+   !> Bring columns into the units that are needed, and their names into those that are looked for.
+   subroutine convert_columns(path, names, units, csv, notes, faults)
+      character(*), intent(in) :: path
+      !> Names without units; those that end with '_' are the beginning of a name
+      character(*), intent(in) :: names(:)
+      !> The unit that each needs
+      character(*), intent(in) :: units(:)
+      type(csv_table_t), intent(inout) :: csv
+      type(word_t), allocatable, intent(inout) :: notes(:)
+      type(fault_list_t), intent(inout) :: faults
+      type(column_head_t) :: head
+      character(:), allocatable :: message, name, end_of_name
+      real(dp) :: factor, added
+      integer :: i, k
+
+      do i = 1, size(csv%names)
+         do k = 1, size(names)
+            name = trim(names(k))
+            head = head_of(csv%names(i)%text, csv%units(i)%text, trim(units(k)))
+            if (lower(head%name) /= name .and. .not. (index(name, '_') > 0 .and. index(lower(head%name), name) == 1)) cycle
+            call conversion(head, trim(units(k)), factor, added, message)
+            if (len(message) > 0) call faults%add(path, csv%header, '', '', column_text(csv, i)//message)
+            if (abs(factor - 1.0_dp) > 0.0_dp .or. abs(added) > 0.0_dp) then
+               csv%values(:, i) = factor*csv%values(:, i) + added
+               notes = [notes, word_t(printable(path, .false.)//': '//column_text(csv, i)//'its '//head%word// &
+                                      ' are converted to '//trim(units(k)))]
+            end if
+            end_of_name = ''
+            if (units(k) == '1/min') end_of_name = '_rpm'
+            if (units(k) == 'degC') end_of_name = '_celsius'
+            ! Speeds and temperatures have several usual units: theirs is said.
+            if (len(end_of_name) == 0 .or. len(head%word) > 0) csv%names(i)%text = lower(head%name)//end_of_name
+            exit
+         end do
+      end do
+   end subroutine convert_columns
 
    !> Which column is what: the speed, and each order with its acceleration and phase (0: it has none).
    subroutine sort_columns(path, csv, speed, orders, accelerations, phases, faults)
@@ -212,7 +264,12 @@ contains
       if (.not. input%is_given(key) .or. input%is_faulty(key)) return
       if (.not. in_use(input, find_key(key))) return
       path = input%file_path(key)
-      if (len(path) > 0) call read_csv_table(path, example, csv, input%faults)
+      if (len(path) == 0) return
+      if (key == 'shaft.table') then
+         call read_csv_table(path, example, '; '//command_of_run_up(path)//' makes one of a recording', csv, input%faults)
+      else
+         call read_csv_table(path, example, '', csv, input%faults)
+      end if
    end subroutine open_table
 
    !> All values of a column are allowed for the key whose unit they have.
