@@ -47,7 +47,7 @@ def parse_groups(text: str) -> f90nml.Namelist:
 
 
 def _plain(text: str) -> str:
-    """The groups alone, in the spelling that the parser knows: no q exponents, no open ends before a stride."""
+    """The groups alone, as the parser knows them: no q exponents, no open ends before a stride."""
     text = re.sub("[\f\x1a\ufeff]", " ", text)
     parts = []
     at = 0
