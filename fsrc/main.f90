@@ -1,9 +1,10 @@
 !> rattle: transient oil film and tooth motion of a loose gear pair, and the class of its rattle.
 program main
-   use, intrinsic :: iso_fortran_env, only: compiler_version, error_unit
+   use, intrinsic :: iso_fortran_env, only: compiler_version
    use batch, only: print_faults
    use command_line, only: command_t, read_arguments, usage_text
-   use errors, only: exit_bad_input, exit_complete, exit_scene_failed, exit_system, fault_list_t
+   use errors, only: error_t, exit_bad_input, exit_complete, exit_scene_failed, exit_system, fault_list_t
+   use file_descriptor, only: reserve_standard_descriptors
    use key_page, only: page_text, quantities_text, template_text
    use key_table, only: nearest_group
    use ranks, only: parallel_words
@@ -11,19 +12,29 @@ program main
    use ready_inputs, only: ready_input
    use run_tasks, only: run_all_tasks
    use signals, only: catch_signals
-   use text_output, only: lost_text, put_line, put_text
+   use stack, only: expect_stack
+   use text_output, only: lost_text, put_error_line, put_line, put_text
+   use unplanned_end, only: plan_end, watch_end
    use version, only: program_version
    implicit none(type, external)
    type(command_t) :: command
    type(fault_list_t) :: faults
+   type(error_t), allocatable :: error
    integer :: exit_code
+   logical :: output_is_closed
 
    exit_code = exit_complete
-   call read_arguments(command, faults)
+   call reserve_standard_descriptors(output_is_closed)
+   call watch_end()
+   call expect_stack(error)
+   if (.not. allocated(error)) call read_arguments(command, faults)
    if (command%template .and. len(template_of(command%template_name)) == 0) &
       call faults%add('--template', 0, command%template_name, '', &
                       'unknown group; the nearest known group is &'//nearest_group(command%template_name))
-   if (faults%count() > 0) then
+   if (allocated(error)) then
+      call put_error_line(error%message)
+      exit_code = error%exit_code
+   else if (faults%count() > 0) then
       call print_faults(faults)
       exit_code = exit_bad_input
    else if (command%help) then
@@ -44,14 +55,17 @@ program main
       call print_faults(faults)
       exit_code = exit_bad_input
    else
+      ! Who closes the standard output wants no words of a run; what --check prints is lost.
+      command%quiet = command%quiet .or. (output_is_closed .and. .not. command%check)
       call catch_signals()
       call run_all_tasks(command, exit_code)
    end if
    if (len(lost_text()) > 0) then
-      write (error_unit, '(a)') lost_text()// &
-         ' could not be written; the disk may be full, it was taken away, or nobody reads any more'
+      call put_error_line(lost_text()// &
+         ' could not be written; the disk may be full, it was taken away, or nobody reads any more')
       if (exit_code == exit_complete .or. exit_code == exit_scene_failed) exit_code = exit_system
    end if
+   call plan_end()
    stop exit_code, quiet = .true.
 
 contains

@@ -21,9 +21,14 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
-# Packages of requirements.txt that every script needs, and those for tables and other formats.
+# Packages of requirements.txt that every script needs, and by extra those for tables and other formats,
+# and for
+# recordings of a test bench.
 NEEDED = ("numpy", "matplotlib", "f90nml")
-TABLES = ("pandas", "xarray", "pyarrow", "netCDF4", "scipy", "SALib")
+EXTRAS = {
+    "tables": ("pandas", "xarray", "pyarrow", "netCDF4", "scipy", "SALib"),
+    "recordings": ("pandas", "scipy", "Pint", "asammdf", "npTDMS", "pyuff", "h5py"),
+}
 
 
 def build_wheel(
@@ -115,8 +120,9 @@ def metadata(project: Mapping[str, Any]) -> str:
     ]
     asked = requirements()
     lines += [f"Requires-Dist: {asked[name]}" for name in NEEDED]
-    lines += ["Provides-Extra: tables"]
-    lines += [f"Requires-Dist: {asked[name]}; extra == 'tables'" for name in TABLES]
+    for extra, names in EXTRAS.items():
+        lines += [f"Provides-Extra: {extra}"]
+        lines += [f"Requires-Dist: {asked[name]}; extra == '{extra}'" for name in names]
     return "\n".join(lines) + "\n"
 
 

@@ -8,14 +8,18 @@ import csv
 from functools import partial
 from pathlib import Path
 
-from rattle import calibration, command, outputs, table
+from rattle import calibration, command, encoder_calibration, outputs, table
 from rattle.faults import RunError
+
+KEY = "gear.drag_scale"
 
 
 def main() -> int:
     options = parse_options()
     if options.output:
         outputs.check([options.output], overwrite=options.overwrite, inputs=[options.measured])
+    if encoder_calibration.is_encoders(options.measured):
+        return fit_encoders(options)
     measured = calibration.read_measurements(options.measured)
     if options.second and measured.name == calibration.RATTLES:
         raise command.CommandError(
@@ -39,6 +43,23 @@ def main() -> int:
     if options.output:
         files = [(options.output, partial(save, measured=measured, fit=fit))]
         outputs.write(files, overwrite=options.overwrite, inputs=[options.measured])
+    return command.COMPLETE
+
+
+def fit_encoders(options: argparse.Namespace) -> int:
+    """Fit what two encoders show of a pair."""
+    if options.second or options.output or options.key != KEY:
+        raise command.CommandError(
+            "Two encoders fit backlash and drag; leave --key, --second and --output out."
+        )
+    try:
+        fit = encoder_calibration.fit_encoders(
+            options.input, encoder_calibration.read_encoders(options.measured), options.gear
+        )
+    except RunError as fault:
+        return command.complain(str(fault))
+    print(table.plain(fit.rows))
+    print(*map(sentence, fit.fitted), *fit.notes, sep="\n")
     return command.COMPLETE
 
 
@@ -86,14 +107,14 @@ def parse_options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description="Fit gear.drag_scale to measured points. The CSV file has the columns speed_rpm, "
         "temperature_celsius and either rattles (1 or 0) or a quantity such as film_force_rms "
-        "or drag_torque."
+        "or drag_torque. The file that 'recording.py encoders' writes fits backlash and drag."
     )
     parser.add_argument("input", type=Path, help="input of a loose pair with computed or tabulated drag")
-    parser.add_argument("measured", type=Path, metavar="MEASURED.csv", help="the measured points")
-    parser.add_argument("--gear", metavar="NAME", help="the pair, where the input has several")
     parser.add_argument(
-        "--key", default="gear.drag_scale", help="the key that is fitted, by default %(default)s"
+        "measured", type=Path, metavar="MEASURED", help="the measured points, or NAME.json of two encoders"
     )
+    parser.add_argument("--gear", metavar="NAME", help="the pair, where the input has several")
+    parser.add_argument("--key", default=KEY, help="the key that is fitted, by default %(default)s")
     parser.add_argument(
         "--range", type=span, default=(0.05, 20.0), metavar="LOW,HIGH", help="where it is looked for"
     )

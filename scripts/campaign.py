@@ -20,7 +20,6 @@ from rattle.namelist import NamelistError, parse
 from rattle.solve import find_program
 
 NAME = re.compile(r"[A-Za-z0-9._-]+")
-MOST_ARRAY_TASKS = 10_000
 DIRECTIVE_SAFE = re.compile(r'[^"\n%\\]*')
 
 
@@ -81,10 +80,13 @@ def slurm(options: argparse.Namespace) -> None:
 
 def check_times(time: str | None, signal_seconds: int) -> None:
     """Refuse a warning that would come before the start."""
-    if time is None:
-        command.note("without --time Slurm gives no warning before the partition's own limit, if it has one.")
+    limit = None if time is None else job_script.seconds_of(time)
+    if limit is None:
+        command.note(
+            "without a --time limit Slurm gives no warning before the partition's own limit, if it has one."
+        )
         return
-    limit, warning = job_script.seconds_of(time), signal_seconds + job_script.CLOCK_GRAIN
+    warning = signal_seconds + job_script.CLOCK_GRAIN
     if limit <= warning:
         raise command.CommandError(
             f"a time limit of {time} leaves no time to compute: Slurm may warn {warning} s before it "
@@ -222,32 +224,44 @@ def opened(path: Path) -> Campaign:
 def array_tasks(text: str) -> int:
     """The count of tasks of an array job, if a cluster may take so many."""
     count = command.positive(text)
-    if count > MOST_ARRAY_TASKS:
+    if count > job_script.MOST_ARRAY_TASKS:
         raise argparse.ArgumentTypeError(
-            f"{text} tasks are more than any cluster takes; at most {MOST_ARRAY_TASKS} are allowed"
+            f"{text} tasks are more than any cluster takes; at most {job_script.MOST_ARRAY_TASKS} are allowed"
         )
     return count
 
 
 def time_limit(text: str) -> str:
     try:
-        if job_script.seconds_of(text) > 0:
-            return text
+        job_script.seconds_of(text)
+        return text
     except ValueError:
-        pass
-    raise argparse.ArgumentTypeError(f"'{text}' is not a time such as 02:30:00")
+        raise argparse.ArgumentTypeError(
+            f"'{text}' is not a time such as 90 (minutes), 02:30:00, 1-12 (days-hours) or UNLIMITED"
+        ) from None
+
+
+def warning_time(text: str) -> int:
+    """Seconds before a time limit that Slurm can warn at."""
+    seconds = command.positive(text)
+    if seconds > job_script.MOST_SIGNAL_SECONDS:
+        raise argparse.ArgumentTypeError(f"Slurm warns at most {job_script.MOST_SIGNAL_SECONDS} s ahead")
+    return seconds
 
 
 def slurm_word(text: str) -> str:
-    if re.fullmatch(r"[\w.,:@+-]+", text):
+    """Names of partitions or accounts: any that a line of a job script can hold."""
+    if text and text.isprintable() and not set(text) & set(' "\\'):
         return text
     raise argparse.ArgumentTypeError(f"'{text}' is not a name that Slurm takes")
 
 
 def memory_limit(text: str) -> str:
-    if re.fullmatch(r"[1-9]\d*[KMGT]", text, re.ASCII):
+    if job_script.MEMORY.fullmatch(text):
         return text
-    raise argparse.ArgumentTypeError(f"'{text}' is not an amount of memory such as 500M or 2G")
+    raise argparse.ArgumentTypeError(
+        f"'{text}' is not an amount of memory such as 500M, 2G or 4096 (megabytes)"
+    )
 
 
 def scene_numbers(text: str) -> list[int]:
@@ -296,17 +310,22 @@ def add_slurm(commands: argparse._SubParsersAction) -> None:
     )
     kind.add_argument("--ranks", type=command.positive, metavar="N", help="one job of N MPI ranks")
     job.add_argument("--threads", type=command.positive, default=1, metavar="N", help="threads a task (1)")
-    job.add_argument("--time", type=time_limit, metavar="HH:MM:SS", help="time limit of the job")
+    job.add_argument(
+        "--time",
+        type=time_limit,
+        metavar="TIME",
+        help="time limit of the job as Slurm takes it: minutes, HH:MM:SS, D-HH:MM:SS, UNLIMITED, ...",
+    )
     job.add_argument(
         "--signal-seconds",
-        type=command.positive,
+        type=warning_time,
         default=120,
         metavar="S",
         help="warning before the time limit in seconds; Slurm may be a minute early (120)",
     )
     job.add_argument("--partition", type=slurm_word, metavar="P", help="partition of the cluster")
     job.add_argument("--account", type=slurm_word, metavar="A", help="account that pays for the job")
-    job.add_argument("--memory", type=memory_limit, metavar="M", help="memory a thread, e.g. 500M or 2G")
+    job.add_argument("--memory", type=memory_limit, metavar="M", help="memory a thread, e.g. 500M, 2G")
     job.add_argument(
         "--module", action="append", default=[], metavar="M", help="environment module to load; several times"
     )

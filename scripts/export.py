@@ -23,7 +23,7 @@ OTHER_FORMATS = (".parquet", ".h5", ".xlsx", ".json")
 def main() -> None:
     options = parse_options()
     result = rattle.read(options.result)
-    names = options.columns or list(result.columns)
+    names = options.columns or list(result)
     for name in names:
         result[name]  # an unknown name or damaged rows end the work before a file is touched
     command.note_open(result)

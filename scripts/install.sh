@@ -37,7 +37,7 @@ case $python in
     *) plain=yes ;;
 esac
 [ "${#python}" -lt 126 ] || plain=
-for name in calibrate campaign classify compare export plot report sensitivity; do
+for name in calibrate campaign classify compare export plot recording report sensitivity; do
     {
         if [ "$plain" ]; then
             printf '#!%s\n' "$python"

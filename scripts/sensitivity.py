@@ -7,10 +7,6 @@ import argparse
 import sys
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-
 import rattle
 from rattle import command, outputs, sensitivity, table
 from rattle.figures import style
@@ -32,15 +28,18 @@ def design() -> int:
     parser.add_argument(
         "--blocks",
         type=power_of_two,
-        default=256,
         metavar="N",
-        help="blocks, each of as many scenes as keys and two more; a power of two (256)",
+        help="blocks, each of as many scenes as keys and two more; a power of two "
+        f"(as many as the scenes of campaign.size have room for, without it {sensitivity.BLOCKS})",
     )
-    parser.add_argument("--seed", type=command.positive, default=1, metavar="N", help="of the sample (1)")
+    parser.add_argument(
+        "--seed", type=command.positive, metavar="N", help="of the sample (campaign.seed, without it 1)"
+    )
     outputs.add_option(parser)
     options = parser.parse_args(sys.argv[2:])
-    files = sensitivity.design_files(options.input, options.blocks, options.seed, options.input.parent)
-    for path in outputs.write(files, overwrite=options.overwrite, inputs=[options.input]):
+    made = sensitivity.new_design(options.input, options.blocks, options.seed, options.input.parent)
+    command.note(made.words)
+    for path in outputs.write(made.files, overwrite=options.overwrite, inputs=[options.input]):
         print(path)
     return command.COMPLETE
 
@@ -100,7 +99,7 @@ def words(study: sensitivity.Study) -> list[str]:
 
 def power_of_two(text: str) -> int:
     number = command.positive(text)
-    if number < 2 or number & (number - 1):
+    if number < sensitivity.LEAST_BLOCKS or number & (number - 1):
         raise argparse.ArgumentTypeError(f"'{text}' is not a power of two from 2 on")
     return number
 

@@ -24,6 +24,25 @@ module campaign_plan
    !> Invalid scenes that are named one by one
    integer, parameter :: most_named = 20
 
+   !> Is told how far the look at the scenes of a campaign is.
+   type, abstract, public :: look_watcher_t
+      !> Whether there is a reason to look no further
+      logical :: is_refused = .false.
+   contains
+      procedure(scenes_seen), deferred :: note_seen
+   end type look_watcher_t
+
+   abstract interface
+      subroutine scenes_seen(self, seen, all)
+         import :: int64, look_watcher_t
+         class(look_watcher_t), intent(inout) :: self
+         !> Scenes that were looked at
+         integer(int64), intent(in) :: seen
+         !> Scenes that will be looked at
+         integer(int64), intent(in) :: all
+      end subroutine scenes_seen
+   end interface
+
    public :: plan_campaign, check_size, count_invalid
 
 contains
@@ -165,7 +184,7 @@ contains
 
    !> Scenes that are no valid scenes; the first ones are named as faults unless they are allowed. All scenes are looked at
    !> whose values are known, unless the work must stop.
-   subroutine count_invalid(scene, file, plan, first, last, seen, invalid, faults)
+   subroutine count_invalid(scene, file, plan, first, last, seen, invalid, faults, watcher)
       !> Checked base scene
       type(scene_t), intent(in) :: scene
       !> Its input, for the faults
@@ -181,6 +200,7 @@ contains
       integer(int64), intent(out) :: invalid
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
+      class(look_watcher_t), optional, intent(inout) :: watcher
       type(scene_t) :: trial
       real(dp), allocatable :: values(:, :)
       integer(int64) :: start
@@ -203,6 +223,9 @@ contains
          end do
          seen = seen + int(count, int64)
          if (must_stop()) exit
+         if (.not. present(watcher)) cycle
+         call watcher%note_seen(seen, min(last, plan%known) - first + 1_int64)
+         if (watcher%is_refused) exit
       end do
       if (invalid > int(most_named, int64) .and. .not. scene%campaign%allow_invalid) &
          call faults%add(file, 0, 'campaign', '', integer_text(invalid)//' scenes are no valid scenes')

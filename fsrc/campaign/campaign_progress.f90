@@ -1,6 +1,5 @@
 !> Progress of a campaign: one line on a terminal, a line every ten seconds at least elsewhere, and NAME.progress.nml for watchers.
 module campaign_progress
-   use, intrinsic :: iso_fortran_env, only: output_unit
    use clock, only: wall_seconds
    use errors, only: error_t
    use file_system, only: is_terminal
@@ -10,6 +9,7 @@ module campaign_progress
    use row_counts, only: count_done, count_failed, count_tested, count_uncertain, counts_of_rows
    use summary_file, only: summary_t
    use text, only: integer_text, short_text
+   use text_output, only: show_on_terminal
    implicit none(type, external)
    private
 
@@ -23,6 +23,8 @@ module campaign_progress
       integer(int64) :: counts(counts_of_rows) = 0_int64
       !> Scenes that other ranks have solved
       integer(int64), private :: done_elsewhere = 0_int64
+      !> Scenes that were looked at, as long as none is solved
+      integer(int64) :: looked_at = 0_int64
       logical :: quiet = .false.
       character(:), allocatable :: path
       logical, private :: on_terminal = .false.
@@ -52,6 +54,7 @@ contains
       self%path = path
       self%scenes = scenes
       self%done_before = done_before
+      self%looked_at = 0_int64
       self%quiet = quiet
       self%on_terminal = is_terminal()
       self%started = wall_seconds()
@@ -107,14 +110,12 @@ contains
       class(campaign_progress_t), intent(inout) :: self
       type(log_t), intent(in) :: log
       real(dp), intent(in) :: now
-      integer :: ignored
 
       self%last_report = now
       if (.not. self%on_terminal) then
          call log%line('  '//words(self, now))
       else if (.not. self%quiet) then
-         write (output_unit, '(a)', advance='no', iostat=ignored) achar(13)//'  '//words(self, now)//'   '
-         flush (output_unit, iostat=ignored)
+         call show_on_terminal(achar(13)//'  '//words(self, now)//'   ')
       end if
    end subroutine report_line
 
@@ -133,10 +134,8 @@ contains
       class(campaign_progress_t), intent(inout) :: self
       !> Log of the campaign
       type(log_t), intent(in) :: log
-      integer :: ignored
 
-      if (self%on_terminal .and. .not. self%quiet) &
-         write (output_unit, '(a)', advance='no', iostat=ignored) achar(13)//repeat(' ', 100)//achar(13)
+      if (self%on_terminal .and. .not. self%quiet) call show_on_terminal(achar(13)//repeat(' ', 100)//achar(13))
       ! The counts are those of all ranks now.
       self%done_elsewhere = 0_int64
       call write_progress(self, wall_seconds())
@@ -152,6 +151,12 @@ contains
       real(dp) :: rate
 
       done = self%counts(count_done) + self%done_elsewhere
+      if (self%looked_at > 0_int64) then
+         rate = real(self%looked_at, dp)/max(now - self%started, 1.0e-9_dp)
+         line = integer_text(self%looked_at)//' of '//integer_text(self%scenes)//' scenes looked at, none solved yet; '// &
+                short_text(real(self%scenes - self%looked_at, dp)/rate, 2)//' s left to look'
+         return
+      end if
       rate = real(done, dp)/max(now - self%started, 1.0e-9_dp)
       line = integer_text(self%done_before + done)//' of '//integer_text(self%scenes)//' scenes, '// &
              short_text(rate, 3)//' a second'
@@ -171,6 +176,7 @@ contains
       self%written = now
       call summary%add('scenes', self%scenes)
       call summary%add('scenes_done', self%done_before + self%counts(count_done) + self%done_elsewhere)
+      if (self%looked_at > 0_int64) call summary%add('scenes_looked_at', self%looked_at)
       call summary%add('scenes_failed', self%counts(count_failed))
       call summary%add('seconds', now - self%started)
       call summary%add('scenes_per_second', real(self%counts(count_done) + self%done_elsewhere, dp)/ &

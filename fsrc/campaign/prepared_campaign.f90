@@ -1,7 +1,7 @@
 !> What is known of a campaign before anything is solved: its plan, the share of this part, its columns, and that there is memory.
 module prepared_campaign
    use campaign_header, only: campaign_layout_t
-   use campaign_plan, only: count_invalid, plan_campaign
+   use campaign_plan, only: count_invalid, look_watcher_t, plan_campaign
    use campaign_record, only: record_columns
    use errors, only: error_t, fault_list_t
    use kinds, only: dp, int64
@@ -40,7 +40,7 @@ contains
 
    !> What is known before anything is solved; the scenes are cut by the whole campaign, whatever part of it this is. Those of a
    !> threshold are its traces. After a fault only the faults are of use.
-   subroutine prepare_campaign(scene, file, hurried, campaign, faults)
+   subroutine prepare_campaign(scene, file, hurried, campaign, faults, watcher)
       !> Checked base scene
       type(scene_t), intent(in) :: scene
       !> Its input, for the faults
@@ -50,6 +50,7 @@ contains
       type(campaign_t), intent(out) :: campaign
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
+      class(look_watcher_t), optional, intent(inout) :: watcher
       integer(int64) :: last
 
       if (hurried) call limit_time(reading_limit)
@@ -66,7 +67,8 @@ contains
       call expect_campaign_memory(scene, file, campaign, faults)
       if (faults%count() > 0) return
       if (hurried) call limit_time(looking_limit)
-      call count_invalid(scene, file, campaign%plan, campaign%first, last, campaign%seen, campaign%invalid, faults)
+      call count_invalid(scene, file, campaign%plan, campaign%first, last, campaign%seen, campaign%invalid, faults, &
+                         watcher)
       if (hurried) call lift_time_limit()
    end subroutine prepare_campaign
 

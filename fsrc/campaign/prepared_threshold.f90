@@ -1,12 +1,13 @@
 !> What is known of a threshold before anything is solved: its traces, the range of its key, its scan.
 module prepared_threshold
    use campaign_axis, only: campaign_axis_t, check_axis, grid_value
-   use campaign_plan, only: check_size, count_invalid
+   use campaign_plan, only: check_size, count_invalid, look_watcher_t
    use derived_scene, only: derive
    use errors, only: fault_list_t
    use input_key, only: allowed_text, in_range, is_computable, not_computable_text
    use key_table, only: find_key, key_name, keys
    use kinds, only: dp, int64
+   use mistaken_units, only: meant_behind
    use prepared_campaign, only: campaign_t, prepare_campaign
    use sampling, only: plan_table, sample_plan_t, scene_values
    use scene_types, only: scene_t, set_number
@@ -35,7 +36,7 @@ module prepared_threshold
 contains
 
    !> What is known before anything is solved. After a fault only the faults are of use.
-   subroutine prepare_threshold(scene, file, hurried, threshold, faults)
+   subroutine prepare_threshold(scene, file, hurried, threshold, faults, watcher)
       !> Checked base scene
       type(scene_t), intent(in) :: scene
       !> Its input, for the faults
@@ -45,6 +46,7 @@ contains
       type(prepared_threshold_t), intent(out) :: threshold
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
+      class(look_watcher_t), optional, intent(inout) :: watcher
       integer(int64) :: seen, invalid, last
       integer :: before
 
@@ -55,7 +57,7 @@ contains
          call prepare_campaign(scene, file, hurried, threshold%traces, faults)
          return
       end if
-      call prepare_campaign(scene_at(scene, threshold%axis, 0), file, hurried, threshold%traces, faults)
+      call prepare_campaign(scene_at(scene, threshold%axis, 0), file, hurried, threshold%traces, faults, watcher)
       if (faults%count() > before) return
       associate (traces => threshold%traces, axis => threshold%axis)
          if (any(traces%plan%positions == axis%position)) &
@@ -66,7 +68,8 @@ contains
          if (faults%count() > before) return
          last = traces%first + traces%layout%scene_count - 1_int64
          if (hurried) call limit_time(looking_limit)
-         call count_invalid(scene_at(scene, axis, axis%count - 1), file, traces%plan, traces%first, last, seen, invalid, faults)
+         call count_invalid(scene_at(scene, axis, axis%count - 1), file, traces%plan, traces%first, last, seen, invalid, faults, &
+                            watcher)
          if (hurried) call lift_time_limit()
       end associate
    end subroutine prepare_threshold
@@ -103,7 +106,7 @@ contains
             else
                cycle
             end if
-            call add(scene, file, trim(ends(i)), message, faults)
+            call add(scene, file, trim(ends(i)), message//meant_behind(keys(position), values(i)), faults)
             return
          end do
          axis = campaign_axis_t(position=position, whole=is_whole(position), scale=threshold%scale, first=threshold%first, &

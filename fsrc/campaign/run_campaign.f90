@@ -1,5 +1,6 @@
 !> A campaign: chunks of scenes to threads and ranks, rows in the order of the scenes. table_task runs it.
 module run_campaign
+   use campaign_plan, only: look_watcher_t
    use campaign_file, only: campaign_file_t
    use campaign_progress, only: campaign_progress_t
    use clock, only: wall_seconds
@@ -13,7 +14,7 @@ module run_campaign
    use output_lock, only: expect_own_lock
    use output_place, only: result_path, stem, summary_path
    use prepared_campaign, only: campaign_t, prepare_campaign
-   use ranks, only: next_tickets, rank_count, this_rank
+   use ranks, only: add_over_ranks, next_tickets, rank_count, this_rank
    use row_counts, only: count_beyond_model, count_done, count_failed, count_followed, count_irregular, count_irregular_so_far, &
       count_rows, count_several, count_tested, count_uncertain, count_undersampled
    use scene_summary, only: add_notes, add_results
@@ -22,7 +23,7 @@ module run_campaign
    use schedule, only: pace_t
    use signals, only: caught_signal
    use judge_group, only: judgement_space_t
-   use solve_chunk, only: scenes_of_block, solve_scenes
+   use solve_chunk, only: longest_scene_t, note_longest, scenes_of_block, solve_scenes
    use summary_file, only: summary_t
    use table_task, only: table_task_t
    use text, only: counted, integer_text, short_text
@@ -37,6 +38,8 @@ module run_campaign
       private
       type(campaign_t) :: campaign
       type(campaign_file_t) :: results
+      !> Of this rank
+      type(longest_scene_t) :: longest
       !> Chunks of an earlier run that were damaged
       integer(int64) :: spoilt = 0_int64
    contains
@@ -51,13 +54,14 @@ module run_campaign
 
 contains
 
-   subroutine prepare(self, file, hurried, faults)
+   subroutine prepare(self, file, hurried, faults, watcher)
       class(campaign_task_t), intent(inout) :: self
       character(*), intent(in) :: file
       logical, intent(in) :: hurried
       type(fault_list_t), intent(inout) :: faults
+      class(look_watcher_t), optional, intent(inout) :: watcher
 
-      call prepare_campaign(self%scene, file, hurried, self%campaign, faults)
+      call prepare_campaign(self%scene, file, hurried, self%campaign, faults, watcher)
       if (faults%count() == 0) self%warnings = self%campaign%warnings
    end subroutine prepare
 
@@ -129,16 +133,33 @@ contains
 
       if (this_rank() > 0) call self%results%join(result_path(self%scene), self%campaign%layout, error)
       if (.not. allocated(error)) &
-         call solve_chunks(self%scene, self%campaign, self%results, self%progress, self%log, error)
+         call solve_chunks(self%scene, self%campaign, self%results, self%progress, self%log, self%longest, error)
+      if (.not. allocated(error)) call share_longest(self%longest)
    end subroutine solve
 
+   !> Find the longest scene of all ranks.
+   subroutine share_longest(longest)
+      !> In: of this rank; out: of all
+      type(longest_scene_t), intent(inout) :: longest
+      real(dp), allocatable :: table(:, :)
+      integer :: i
+
+      allocate (table(2, rank_count()), source=0.0_dp)
+      table(:, this_rank() + 1) = [real(longest%number, dp), real(longest%steps, dp)]
+      call add_over_ranks(table)
+      do i = 1, size(table, 2)
+         call note_longest(int(table(1, i), int64), int(table(2, i), int64), longest)
+      end do
+   end subroutine share_longest
+
    !> Chunks until none is left, or a signal asks to stop: a thread takes as many at a time as a few seconds of work are.
-   subroutine solve_chunks(scene, campaign, results, progress, log, error)
+   subroutine solve_chunks(scene, campaign, results, progress, log, longest, error)
       type(scene_t), intent(in) :: scene
       type(campaign_t), intent(in) :: campaign
       type(campaign_file_t), intent(inout) :: results
       type(campaign_progress_t), intent(inout) :: progress
       type(log_t), intent(in) :: log
+      type(longest_scene_t), intent(out) :: longest
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: own_error
       integer(int64), allocatable :: pending(:)
@@ -167,7 +188,7 @@ contains
          last_ticket = min(size(pending, kind=int64), ticket + taken - 1_int64)
          !$omp atomic write
          left = size(pending, kind=int64) - last_ticket
-         call solve_some(scene, campaign, pending(ticket:last_ticket), results, space, progress, scenes, own_error)
+         call solve_some(scene, campaign, pending(ticket:last_ticket), results, space, progress, longest, scenes, own_error)
          if (caught_signal() /= 0) exit
          call pace%note(int(scenes), wall_seconds() - started)
          if (allocated(own_error)) then
@@ -197,7 +218,7 @@ contains
 
    !> Solve and write some chunks, those that follow each other side by side. What was stopped is not written: its scenes are solved
    !> again when the run is carried on.
-   subroutine solve_some(scene, campaign, chunks, results, space, progress, scenes, error)
+   subroutine solve_some(scene, campaign, chunks, results, space, progress, longest, scenes, error)
       type(scene_t), intent(in) :: scene
       type(campaign_t), intent(in) :: campaign
       !> By rising numbers
@@ -206,11 +227,14 @@ contains
       !> Work space of this thread
       type(judgement_space_t), intent(inout) :: space
       type(campaign_progress_t), intent(inout) :: progress
+      !> Of all threads
+      type(longest_scene_t), intent(inout) :: longest
       !> How many scenes were solved
       integer(int64), intent(out) :: scenes
       !> Set if chunks could not be written, or there is no memory for them
       type(error_t), allocatable, intent(out) :: error
       real(dp), allocatable :: rows(:, :)
+      type(longest_scene_t) :: own_longest
       integer(int64) :: first_row, last_row, ignored
       integer :: first, last, status_column
 
@@ -227,7 +251,7 @@ contains
          call results%chunk_bounds(chunks(first), first_row, ignored)
          call results%chunk_bounds(chunks(last), ignored, last_row)
          allocate (rows(size(campaign%layout%names), last_row - first_row + 1_int64))
-         call solve_scenes(scene, campaign%plan, campaign%first + first_row - 1_int64, space, rows, error)
+         call solve_scenes(scene, campaign%plan, campaign%first + first_row - 1_int64, space, rows, error, own_longest)
          if (caught_signal() /= 0 .or. allocated(error)) return
          call results%write_chunks(chunks(first), rows, error)
          if (allocated(error)) return
@@ -235,6 +259,9 @@ contains
          scenes = scenes + last_row - first_row + 1_int64
          deallocate (rows)
       end do
+      !$omp critical (longest_scene)
+      call note_longest(own_longest%number, own_longest%steps, longest)
+      !$omp end critical (longest_scene)
    end subroutine solve_some
 
    !> Close the result, write the summary, and say what became of the campaign.
@@ -248,14 +275,14 @@ contains
 
       call self%results%close(finished, close_error)
       self%is_cut = .not. finished
-      self%has_failures = self%progress%counts(count_failed) > 0
+      self%failed = self%progress%counts(count_failed)
       status = merge(status_complete, status_interrupted, finished)
       if (allocated(error) .or. allocated(close_error)) status = status_not_written
       call self%progress%finish(self%log)
       call add_counts(summary, self, status)
       call write_summary(self%scene, summary, close_error)
       if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
-      call report_ending(self%log, self%scene, self%campaign, self%progress)
+      call report_ending(self%log, self%scene, self%campaign, self%progress, self%longest)
    end subroutine close_files
 
    subroutine add_counts(summary, task, status)
@@ -308,11 +335,12 @@ contains
    end subroutine write_summary
 
    !> What has to be known about the scenes of this run, and where the files are.
-   subroutine report_ending(log, scene, campaign, progress)
+   subroutine report_ending(log, scene, campaign, progress, longest)
       type(log_t), intent(in) :: log
       type(scene_t), intent(in) :: scene
       type(campaign_t), intent(in) :: campaign
       type(campaign_progress_t), intent(in) :: progress
+      type(longest_scene_t), intent(in) :: longest
 
       associate (counts => progress%counts)
          if (counts(count_beyond_model) > 0) call log%line('  warning: '//counted(counts(count_beyond_model), 'scene')// &
@@ -328,6 +356,8 @@ contains
             'more of spectrum.periods steadies them (rattle_class)')
          if (counts(count_irregular_so_far) > 0) call log%line('  '//counted(counts(count_irregular_so_far), 'scene')// &
             ' irregular so far: without repetition, and no neighbouring motion parts for good (rattle_class)')
+         if (longest%number > 0_int64) call log%line('  the longest: scene '//integer_text(longest%number)//', '// &
+                                                     counted(longest%steps, 'step'))
          call log%line('  '//result_path(scene))
          call log%line('  '//summary_path(scene))
          if (counts(count_followed) > 0 .and. scene%solver%starts > 1) &

@@ -1,6 +1,5 @@
 !> What a call asks for: a campaign or threshold, or scenes one after the other.
 module run_tasks
-   use, intrinsic :: iso_fortran_env, only: error_unit
    use batch, only: print_faults, run_batch
    use command_line, only: command_t, most_threads
    use completed_scene, only: complete_scene
@@ -13,9 +12,10 @@ module run_tasks
    use scene_reader, only: read_scenes
    use scene_types, only: is_shared_task, scene_t, task_threshold
    use signals, only: caught_signal
+   use stack, only: expect_stacks_of_threads
    use table_task, only: check_table_task, run_table_task, table_task_t
    use text, only: integer_text
-   use text_output, only: put_line, put_text
+   use text_output, only: put_error_line, put_line, put_text
    use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_set_num_threads
    implicit none(type, external)
    private
@@ -32,6 +32,7 @@ contains
       integer, intent(out) :: exit_code
       type(scene_t), allocatable :: scenes(:), pairs(:)
       type(fault_list_t) :: faults, found
+      type(error_t), allocatable :: error
       integer :: i, j, before, threads
 
       if (command%threads > 0) call omp_set_num_threads(command%threads)
@@ -58,6 +59,8 @@ contains
       if (threads > most_threads()) call faults%add('OMP_NUM_THREADS', 0, '', '', integer_text(threads)// &
                                                     ' threads are asked for; at most '//integer_text(most_threads())// &
                                                     ' are allowed on this machine')
+      if (faults%count() == 0 .and. .not. command%check) call expect_stacks_of_threads(error)
+      if (allocated(error)) call faults%add_error('rattle', '', '', error)
       if (faults%count() == 0 .and. size(scenes) > 1) then
          do i = 1, size(scenes)
             if (is_shared_task(scenes(i)%task)) call faults%add(scenes(i)%source, 0, 'scene', 'task', 'a '// &
@@ -117,8 +120,8 @@ contains
       if (rank_count() == 1) then
          call run_batch(command, scenes, exit_code)
       else if (this_rank() == 0) then
-         write (error_unit, '(a)') 'an MPI job of '//integer_text(rank_count())//' processes was started, but only a '// &
-            'campaign or threshold can be divided; start motions, sweeps and film tasks without mpirun'
+         call put_error_line('an MPI job of '//integer_text(rank_count())//' processes was started, but only a '// &
+            'campaign or threshold can be divided; start motions, sweeps and film tasks without mpirun')
       end if
       call end_ranks()
    end subroutine run_alone
@@ -153,7 +156,7 @@ contains
          end if
       else
          call run_table_task(task, scene, scene%source, command%resume, command%quiet, faults, exit_code, error)
-         if (this_rank() == 0 .and. allocated(error)) write (error_unit, '(a)') error%message
+         if (this_rank() == 0 .and. allocated(error)) call put_error_line(error%message)
       end if
       if (this_rank() == 0 .and. faults%count() > 0) call print_faults(faults)
       call end_ranks()

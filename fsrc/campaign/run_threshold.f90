@@ -2,6 +2,7 @@
 !> then the verifications of their ends, all solved as the scenes of a campaign are. Some traces are searched at a time; NAME.state
 !> keeps what was found, for --resume. table_task runs them.
 module run_threshold
+   use campaign_plan, only: look_watcher_t
    use clock, only: wall_seconds
    use core_time, only: core_time_sentence
    use errors, only: error_t, fault_list_t
@@ -51,13 +52,14 @@ module run_threshold
 
 contains
 
-   subroutine prepare(self, file, hurried, faults)
+   subroutine prepare(self, file, hurried, faults, watcher)
       class(threshold_task_t), intent(inout) :: self
       character(*), intent(in) :: file
       logical, intent(in) :: hurried
       type(fault_list_t), intent(inout) :: faults
+      class(look_watcher_t), optional, intent(inout) :: watcher
 
-      call prepare_threshold(self%scene, file, hurried, self%threshold, faults)
+      call prepare_threshold(self%scene, file, hurried, self%threshold, faults, watcher)
       if (faults%count() == 0) self%warnings = self%threshold%traces%warnings
    end subroutine prepare
 
@@ -174,7 +176,7 @@ contains
       logical :: keeps_earlier
 
       self%is_cut = self%outcome%cut
-      self%has_failures = failed_scenes(self%outcome) > 0_int64
+      self%failed = failed_scenes(self%outcome)
       call self%progress%finish(self%log)
       allocate (results(0))
       status = status_complete

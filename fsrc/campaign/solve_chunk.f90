@@ -35,13 +35,19 @@ module solve_chunk
    integer, parameter :: fewest_together = 16
    real(dp), parameter :: most_bytes = 2.0_dp**28
 
-   public :: solve_scenes, solve_starts, scenes_of_block, chunk_bytes
+   !> The scene of a campaign whose motion took the most steps.
+   type, public :: longest_scene_t
+      !> Number in the campaign, 0: none; and its steps
+      integer(int64) :: number = 0_int64, steps = 0_int64
+   end type longest_scene_t
+
+   public :: note_longest, solve_scenes, solve_starts, scenes_of_block, chunk_bytes
 
 contains
 
    !> Rows of consecutive scenes. They depend on the scenes alone, not on how they are cut into chunks. Where the work must
    !> stop, the rows are of no use.
-   subroutine solve_scenes(base, plan, first, space, rows, error)
+   subroutine solve_scenes(base, plan, first, space, rows, error, longest)
       !> Checked base scene
       type(scene_t), intent(in) :: base
       !> The plan
@@ -54,6 +60,8 @@ contains
       real(dp), contiguous, intent(out) :: rows(:, :)
       !> Set if there is no memory for the samples of a scene; the rows are of no use then
       type(error_t), allocatable, intent(out) :: error
+      !> Kept up
+      type(longest_scene_t), optional, intent(inout) :: longest
       real(dp), allocatable :: values(:, :)
       type(scene_t) :: scene
       logical :: needed(need_count)
@@ -69,7 +77,7 @@ contains
          count = min(batch, size(rows, 2) - start + 1)
          call chunk_values(plan, first + int(start - 1, int64), values(:, :count))
          call solve_batch(scene, plan, values(:, :count), first + int(start - 1, int64), needed, space, &
-                          rows(:, start:start + count - 1), error)
+                          rows(:, start:start + count - 1), error, longest)
          if (allocated(error)) return
       end do
    end subroutine solve_scenes
@@ -157,7 +165,7 @@ contains
    end function chunk_bytes
 
    !> Rows of a batch.
-   subroutine solve_batch(scene, plan, values, first, needed, space, rows, error)
+   subroutine solve_batch(scene, plan, values, first, needed, space, rows, error, longest)
       !> Base scene; its varied keys are changed
       type(scene_t), intent(inout) :: scene
       !> The plan, values of the varied keys, and number of the first scene
@@ -170,6 +178,8 @@ contains
       real(dp), intent(out) :: rows(:, :)
       !> Set if there is no memory for the samples of a scene
       type(error_t), allocatable, intent(out) :: error
+      !> Kept up
+      type(longest_scene_t), optional, intent(inout) :: longest
       type(prepared_scene_t) :: scenes(size(values, 2))
       type(judged_scene_t), allocatable :: judged(:)
       type(reason_t) :: reason
@@ -197,6 +207,8 @@ contains
       do i = 1, size(solved)
          associate (place => solved(i))
             call record_row(scene, first + int(place - 1, int64), values(:, place), judged(i), rows(:, place))
+            if (present(longest)) &
+               call note_longest(first + int(place - 1, int64), judged(i)%ending%count%steps, longest)
             if (.not. scene%film%automatic) cycle
             reason = reason_for_nodes(judged(i), scenes(place)%spectrum%impact_limit)
             if (reason%code > 0) in_nodes = [in_nodes, place]
@@ -213,6 +225,16 @@ contains
                          rows(:, order(i)))
       end do
    end subroutine solve_batch
+
+   !> Keep the scene with the most steps, of two the first.
+   pure subroutine note_longest(number, steps, longest)
+      integer(int64), intent(in) :: number
+      integer(int64), intent(in) :: steps
+      type(longest_scene_t), intent(inout) :: longest
+
+      if (steps > longest%steps .or. (steps == longest%steps .and. number < longest%number)) &
+         longest = longest_scene_t(number, steps)
+   end subroutine note_longest
 
    !> Neighbours of the rows of a batch on the grid, those of them that are solved.
    pure function neighbours_of_rows(plan, first, solved) result(neighbours)

@@ -1,9 +1,12 @@
 !> A task whose result is a table over many scenes that threads and ranks share, from its input to its files. Opening, ranks,
 !> progress and closing are here; a task extends the type by the rest.
 module table_task
+   use campaign_plan, only: look_watcher_t
    use campaign_progress, only: campaign_progress_t
    use clock, only: wall_seconds
    use errors, only: error_t, exit_complete, exit_scene_failed, fault_list_t, raise
+   use file_system, only: delete_file
+   use finished_files, only: bring_back, drop_aside, set_aside
    use kinds, only: dp, int64
    use log_file, only: log_magic, log_t
    use output_lock, only: output_lock_t
@@ -13,6 +16,7 @@ module table_task
    use scene_types, only: scene_t
    use signals, only: caught_signal
    use text, only: counted
+   use text_output, only: put_error_line
    use version, only: program_version
    use word_list, only: word_t
    use, intrinsic :: omp_lib, only: omp_get_max_threads
@@ -34,8 +38,9 @@ module table_task
       type(log_t) :: log
       !> Wall time when the run began [s]
       real(dp) :: started = 0.0_dp
-      !> Whether a signal has cut the run short, and whether scenes have failed
-      logical :: is_cut = .false., has_failures = .false.
+      !> Whether a signal has cut the run short, and how many of its scenes have failed
+      logical :: is_cut = .false.
+      integer(int64) :: failed = 0_int64
    contains
       !> Plan the table and look at its scenes
       procedure(prepare_table), deferred :: prepare
@@ -53,9 +58,31 @@ module table_task
       procedure(ending_of_table), deferred :: close_files
    end type table_task_t
 
+   !> The place of the files and the log of a run: begun while the scenes are still looked at, where that takes long.
+   type, extends(look_watcher_t) :: opening_t
+      private
+      type(scene_t) :: scene
+      !> Input of the scene, for the faults
+      character(:), allocatable :: file
+      logical :: quiet = .false., is_begun = .false.
+      !> Wall time when the look began [s]
+      real(dp) :: started = 0.0_dp
+      type(campaign_progress_t) :: progress
+      type(log_t) :: log
+      !> Path of the log
+      type(word_t) :: paths(1)
+      type(output_lock_t) :: lock
+      !> Why the run is refused
+      type(fault_list_t) :: faults
+      type(error_t), allocatable :: error
+   contains
+      procedure :: note_seen
+      procedure :: undo
+   end type opening_t
+
    abstract interface
-      subroutine prepare_table(self, file, hurried, faults)
-         import :: table_task_t, fault_list_t
+      subroutine prepare_table(self, file, hurried, faults, watcher)
+         import :: table_task_t, fault_list_t, look_watcher_t
          class(table_task_t), intent(inout) :: self
          !> Input of the scene, for the faults
          character(*), intent(in) :: file
@@ -63,6 +90,8 @@ module table_task
          logical, intent(in) :: hurried
          !> Faults are appended
          type(fault_list_t), intent(inout) :: faults
+         !> Is told how far the look at the scenes is
+         class(look_watcher_t), optional, intent(inout) :: watcher
       end subroutine prepare_table
 
       subroutine step_of_table(self, error)
@@ -91,6 +120,9 @@ module table_task
       end function words_of_table
    end interface
 
+   !> What the look at the scenes may take without a word [s]
+   real(dp), parameter :: patience = 1.0_dp
+
    public :: run_table_task, check_table_task
 
 contains
@@ -113,16 +145,20 @@ contains
       integer, intent(out) :: exit_code
       !> Set if files could not be written
       type(error_t), allocatable, intent(out) :: error
-      type(output_lock_t) :: lock
+      type(opening_t) :: opening
 
       task%started = wall_seconds()
       task%scene = scene
       task%carry_on = carry_on
-      call task%prepare(file, .false., faults)
-      if (this_rank() == 0) call open_task(task, file, quiet, lock, faults, exit_code, error)
+      opening%scene = scene
+      opening%file = file
+      opening%quiet = quiet
+      opening%started = task%started
+      call task%prepare(file, .false., faults, opening)
+      if (this_rank() == 0) call open_task(task, opening, faults, exit_code, error)
       call share_number(exit_code)
       if (exit_code /= exit_complete) then
-         call lock%release(.true.)
+         call opening%lock%release(.true.)
          return
       end if
       ! Memory may lack on the machine of this rank alone.
@@ -131,7 +167,7 @@ contains
          call abort_ranks(error)
          return
       end if
-      if (this_rank() == 0) call report_opening(task, lock%warning)
+      if (this_rank() == 0) call report_opening(task, opening%lock%warning)
       call task%progress%start(progress_path(scene), task%scenes, task%done_before, quiet)
       call task%solve(error)
       if (allocated(error)) call abort_ranks(error)
@@ -140,26 +176,31 @@ contains
       if (this_rank() == 0) then
          call task%close_files(error)
          call task%log%close()
-         exit_code = merge(exit_scene_failed, exit_complete, task%has_failures)
+         exit_code = merge(exit_scene_failed, exit_complete, task%failed > 0_int64)
          if (task%is_cut) exit_code = 128 + caught_signal()
          if (allocated(error)) exit_code = error%exit_code
+         if (quiet .and. exit_code == exit_scene_failed) &
+            call put_error_line(file//': '//counted(task%failed, 'scene')//' failed; '//log_path(task%scene)//' has more')
       end if
-      call lock%release(allocated(error))
+      call opening%lock%release(allocated(error))
       call share_number(exit_code)
    end subroutine run_table_task
 
    !> What rank 0 does before anything is solved.
-   subroutine open_task(task, file, quiet, lock, faults, exit_code, error)
+   subroutine open_task(task, opening, faults, exit_code, error)
       class(table_task_t), intent(inout) :: task
-      character(*), intent(in) :: file
-      logical, intent(in) :: quiet
-      type(output_lock_t), intent(inout) :: lock
+      type(opening_t), intent(inout) :: opening
       type(fault_list_t), intent(inout) :: faults
       !> Complete if the task can be solved
       integer, intent(out) :: exit_code
       type(error_t), allocatable, intent(out) :: error
 
-      call claim_output_place(task%scene, file, lock, faults, error)
+      call faults%take(opening%faults)
+      if (allocated(opening%error)) then
+         call move_alloc(opening%error, error)
+      else if (.not. opening%is_begun) then
+         call claim_output_place(task%scene, opening%file, opening%lock, faults, error)
+      end if
       if (caught_signal() /= 0) then
          ! The look at the scenes was cut short: there may be faults that are not known.
          exit_code = 128 + caught_signal()
@@ -167,11 +208,53 @@ contains
          exit_code = faults%exit_code
       else
          if (.not. allocated(error)) call task%open_files(error)
-         if (.not. allocated(error)) call task%log%open(log_path(task%scene), quiet, error)
+         task%log = opening%log
+         if (.not. (allocated(error) .or. opening%is_begun)) call task%log%open(log_path(task%scene), opening%quiet, error)
          exit_code = exit_complete
          if (allocated(error)) exit_code = error%exit_code
       end if
+      if (opening%is_begun) then
+         if (exit_code /= exit_complete) call opening%undo()
+         call drop_aside(opening%paths)
+      end if
    end subroutine open_task
+
+   !> Once the look at the scenes takes long, take the place of the files and begin the log; from then on tell how far it is.
+   subroutine note_seen(self, seen, all)
+      class(opening_t), intent(inout) :: self
+      integer(int64), intent(in) :: seen
+      integer(int64), intent(in) :: all
+
+      if (this_rank() > 0) return
+      if (.not. self%is_begun) then
+         if (wall_seconds() - self%started < patience) return
+         call claim_output_place(self%scene, self%file, self%lock, self%faults, self%error)
+         self%is_refused = allocated(self%error) .or. self%faults%count() > 0
+         if (self%is_refused) return
+         ! gfortran 12 loses the texts of a list that is built of function results.
+         self%paths(1)%text = log_path(self%scene)
+         call set_aside(self%paths)
+         self%is_begun = .true.
+         call self%log%open(log_path(self%scene), self%quiet, self%error)
+         self%is_refused = allocated(self%error)
+         if (self%is_refused) return
+         call self%log%line(log_magic//program_version//', '//trim(self%scene%name)//': '//counted(all, 'scene')// &
+                            ' to be looked at before the first is solved')
+         call self%progress%start(progress_path(self%scene), all, 0_int64, self%quiet)
+      end if
+      self%progress%looked_at = seen
+      if (self%progress%is_due()) call self%progress%tell(self%log)
+   end subroutine note_seen
+
+   !> Leave the place of the files as it was, as nothing will be solved.
+   subroutine undo(self)
+      class(opening_t), intent(inout) :: self
+
+      call self%log%close()
+      call delete_file(log_path(self%scene))
+      call delete_file(progress_path(self%scene))
+      call bring_back(self%paths)
+   end subroutine undo
 
    !> What will be solved, how, and what is odd about it.
    subroutine report_opening(task, warning)

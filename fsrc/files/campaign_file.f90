@@ -5,10 +5,11 @@
 !> at any moment leaves chunks that are whole or count as not done. The bytes of the finished file depend
 !> neither on the order of the chunks nor on the number of runs that it took.
 module campaign_file
+   use, intrinsic :: iso_c_binding, only: c_int
    use byte_file, only: beside => new_path, raise_taken_away
    use campaign_header, only: campaign_layout_t, check_same_campaign, header_for
    use checksum, only: checksum_of
-   use errors, only: error_t, error_words, exit_bad_input, exit_system, last_error, raise
+   use errors, only: error_t, error_words, exit_bad_input, exit_system, is_shortage, last_error, raise
    use file_system, only: delete_file, file_state_t, first_bytes, path_exists, rename_file, state_of_path
    use kinds, only: dp, int64
    use output_lock, only: expect_own_lock
@@ -68,6 +69,7 @@ contains
       character(len(result_magic)) :: magic
       type(file_state_t) :: state
       integer :: got
+      integer(c_int) :: cause
       logical :: stood, overtaken, moved
 
       self%path = path
@@ -79,7 +81,11 @@ contains
          return
       end if
       if (stood) then
-         call first_bytes(path, magic, got)
+         call first_bytes(path, magic, got, cause)
+         if (is_shortage(cause)) then
+            call raise(error, exit_system, path//' cannot be opened: '//error_words(cause))
+            return
+         end if
          if (state%bytes > 0_int64 .and. (got < len(magic) .or. magic /= result_magic)) then
             call raise(error, exit_bad_input, path// &
                        ' exists and was not written by rattle; it is never replaced')
@@ -93,7 +99,8 @@ contains
       if (.not. allocated(error)) then
          call self%file%open(new_path, .true., error)
          ! Nothing has run yet: a place that cannot be written is bad input.
-         if (allocated(error)) call raise(error, exit_bad_input, path//' cannot be written: '//error_words(last_error()))
+         if (allocated(error)) call raise(error, merge(exit_system, exit_bad_input, is_shortage(last_error())), &
+                                             path//' cannot be written: '//error_words(last_error()))
       end if
       if (.not. allocated(error)) call self%take_lock(new_path, error)
       overtaken = .false.

@@ -100,6 +100,7 @@ contains
       sentence = key_name(new)//' is '//values_text(new)//' now and was '//values_text(old)
       if (size(new%values) < long .or. size(new%values) /= size(old%values)) return
       do i = 1, size(new%values)
+         if (.not. (allocated(new%values(i)%text) .and. allocated(old%values(i)%text))) return
          if (new%values(i)%text == old%values(i)%text) cycle
          sentence = key_name(new)//'('//integer_text(i)//') is '//new%values(i)%text//' now and was '//old%values(i)%text
          return
@@ -121,8 +122,7 @@ contains
       type(assignment_t), intent(in) :: sought
 
       do find = 1, size(assignments)
-         if (assignments(find)%group == sought%group .and. assignments(find)%key == sought%key .and. &
-             assignments(find)%occurrence == sought%occurrence .and. assignments(find)%first_element == sought%first_element) return
+         if (key_name(assignments(find)) == key_name(sought)) return
       end do
       find = 0
    end function find
@@ -133,8 +133,7 @@ contains
 
       name = assignment%group
       if (assignment%occurrence > 1) name = name//'('//integer_text(assignment%occurrence)//')'
-      name = name//'.'//assignment%key
-      if (assignment%first_element > 0) name = name//'('//integer_text(assignment%first_element)//')'
+      name = name//'.'//assignment%key//assignment%subscript_text
    end function key_name
 
    !> Values as they stand, with commas between.
@@ -147,7 +146,7 @@ contains
       if (.not. allocated(assignment%values)) return
       do i = 1, size(assignment%values)
          if (i > 1) words = words//', '
-         words = words//assignment%values(i)%text
+         if (allocated(assignment%values(i)%text)) words = words//assignment%values(i)%text
       end do
    end function values_text
 

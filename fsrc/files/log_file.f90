@@ -1,12 +1,11 @@
 !> Log of a scene: every line goes to the terminal and to NAME.log alike.
 module log_file
    use, intrinsic :: iso_c_binding, only: c_int
-   use, intrinsic :: iso_fortran_env, only: error_unit
    use errors, only: error_t, error_words, exit_system, last_error, raise
    use file_descriptor, only: close_descriptor, open_existing, open_new, read_and_write
    use file_system, only: delete_file, file_state_t, stands_at, state_of_path
    use output_lock, only: expect_own_lock, runs_without_locks
-   use text_output, only: lost_text, note_lost_text, put_line, write_line
+   use text_output, only: lost_text, note_lost_text, put_error_line, put_line, write_line
    implicit none(type, external)
    private
 
@@ -76,7 +75,7 @@ contains
       state = state_of_path(self%path)
       if (.not. stands .and. state%exists .and. runs_without_locks()) then
          ! A run that loses may have begun its log a moment after that of the winner: the results are sound all the same.
-         write (error_unit, '(a)') 'warning: '//self%path//' was replaced by that of another run'
+         call put_error_line('warning: '//self%path//' was replaced by that of another run')
       else if (.not. stands) then
          call note_lost_text(self%path)
       end if

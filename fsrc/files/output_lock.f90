@@ -6,7 +6,8 @@
 !> gives up hands the lock back to the one before, which may be at work still.
 module output_lock
    use byte_file, only: own_word
-   use errors, only: error_t, exit_system, raise
+   use, intrinsic :: iso_c_binding, only: c_int
+   use errors, only: error_t, error_words, exit_system, is_shortage, raise
    use file_system, only: delete_file, file_state_t, first_bytes, found_files, is_link, state_of_path
    use kinds, only: int64
    use random_access_file, only: lock_failed, lock_held, lock_refused, random_access_file_t
@@ -144,14 +145,22 @@ contains
       character(:), allocatable :: own
       character(lock_bytes) :: content
       integer :: got
+      integer(c_int) :: cause
 
       own = lock_magic//own_word()
-      call first_bytes(lock_path(stem), content, got)
+      call first_bytes(lock_path(stem), content, got, cause)
       ! Where there are no locks, one that is gone may have gone with a later run.
       if (got == len(content) .and. content == own) return
       if (got < len(content) .and. .not. without_locks) return
-      call raise(error, exit_system, stem//' is being written by another run, which began later; what this run has computed is '// &
-                 'not kept')
+      if (is_shortage(cause)) then
+         call raise(error, exit_system, lock_path(stem)//' cannot be opened: '//error_words(cause))
+      else if (index(content, lock_magic) == 1 .or. got < len(content)) then
+         call raise(error, exit_system, stem//' is being written by another run, which began later; what this run has computed '// &
+                    'is not kept')
+      else
+         call raise(error, exit_system, lock_path(stem)//' was written over by another program; what this run has computed is '// &
+                    'not kept')
+      end if
    end subroutine expect_own_lock
 
    !> Whether a lock could not be had in this run: another run may write the same files then.

@@ -1,6 +1,8 @@
 !> Where the files of a scene go, and whether they may go there. Looked at before anything runs.
 module output_place
-   use errors, only: error_t, fault_list_t
+   use, intrinsic :: iso_c_binding, only: c_int
+   use errors, only: error_t, error_words, exit_system, fault_list_t, is_shortage, last_error, raise
+   use file_descriptor, only: close_descriptor, open_existing, read_and_write
    use file_system, only: file_state_t, first_bytes, is_directory, is_link, is_writable, make_directory, path_exists, state_of_path
    use log_file, only: log_magic
    use output_lock, only: lock_magic, lock_path, output_lock_t
@@ -146,6 +148,7 @@ contains
          type(file_state_t) :: state
          character(len(magic)) :: start
          integer :: got
+         integer(c_int) :: cause
          character(:), allocatable :: way_on
          logical :: ours, leads_away
 
@@ -163,30 +166,50 @@ contains
          ! Pipes and devices are not opened: a pipe would wait for its other end.
          ours = state%is_file .and. state%bytes == 0
          if (state%is_file .and. .not. ours .and. len(magic) > 0) then
-            call first_bytes(path, start, got)
+            call first_bytes(path, start, got, cause)
             ours = got == len(magic) .and. start == magic
             ! A crash of the machine may leave zeros where bytes were on their way to the disk, a full disk half a word.
             if (may_stand) ours = ours .or. verify(start(:got), achar(0)) == 0 .or. (got > 0 .and. index(magic, start(:got)) == 1)
          end if
          if (.not. ours .and. state%is_file .and. got == 0) then
-            call faults%add(file, 0, 'output', '', path//' exists and may not be read')
+            call add_unusable(path, 'read', cause)
          else if (.not. ours) then
             call faults%add(file, 0, 'output', '', path//' exists and was not written by rattle; it is never replaced')
          else if (state%bytes > 0 .and. .not. (may_stand .or. scene%output%overwrite)) then
             call faults%add(file, 0, 'output', 'overwrite', path//' exists; '//way_on//'--overwrite replaces it')
-         else if (.not. is_writable_file(path)) then
-            call faults%add(file, 0, 'output', '', path//' exists and may not be replaced')
+         else
+            call try_to_write(path, cause)
+            if (cause /= 0_c_int) call add_unusable(path, 'replaced', cause)
          end if
       end subroutine check_kind
 
-      logical function is_writable_file(path)
+      !> Why a file cannot be written, 0: it can.
+      subroutine try_to_write(path, cause)
          character(*), intent(in) :: path
-         integer :: unit, stat
+         integer(c_int), intent(out) :: cause
+         integer(c_int) :: descriptor
+         logical :: ignored
 
-         open (newunit=unit, file=path, access='stream', status='old', action='readwrite', iostat=stat)
-         is_writable_file = stat == 0
-         if (stat == 0) close (unit)
-      end function is_writable_file
+         cause = 0_c_int
+         descriptor = open_existing(path, read_and_write)
+         if (descriptor < 0_c_int) cause = last_error()
+         if (descriptor >= 0_c_int) call close_descriptor(descriptor, ignored)
+      end subroutine try_to_write
+
+      !> A file that stands in the way, or of which nothing can be known, as the system has nothing to spare.
+      subroutine add_unusable(path, what, cause)
+         character(*), intent(in) :: path
+         character(*), intent(in) :: what
+         integer(c_int), intent(in) :: cause
+         type(error_t), allocatable :: error
+
+         if (is_shortage(cause)) then
+            call raise(error, exit_system, path//' cannot be opened: '//error_words(cause))
+            call faults%add_error(file, 'output', '', error)
+         else
+            call faults%add(file, 0, 'output', '', path//' exists and may not be '//what)
+         end if
+      end subroutine add_unusable
 
    end subroutine check_output_place
 

@@ -1,13 +1,12 @@
 !> Progress of a motion, or of a sweep of motions: on a terminal one line that is written over, elsewhere a timed line now and then.
 module progress
-   use, intrinsic :: iso_fortran_env, only: output_unit
    use clock, only: wall_seconds
    use file_system, only: is_terminal
    use engine, only: motion_watcher_t
    use kinds, only: dp
    use log_file, only: log_t
    use text, only: integer_text, short_text
-   use text_output, only: has_turn, lock_texts, unlock_texts
+   use text_output, only: has_turn, lock_texts, show_on_terminal, unlock_texts
    implicit none(type, external)
    private
 
@@ -57,7 +56,6 @@ contains
       integer, intent(in) :: all
       character(:), allocatable :: line
       real(dp) :: now
-      integer :: ignored
 
       now = wall_seconds()
       if (now - self%last < merge(terminal_interval, line_interval, self%on_terminal)) return
@@ -67,8 +65,7 @@ contains
       if (.not. self%on_terminal) then
          call self%log%line(line)
       else if (.not. self%quiet .and. has_turn()) then
-         write (output_unit, '(a)', advance='no', iostat=ignored) achar(13)//line//'    '
-         flush (output_unit, iostat=ignored)
+         call show_on_terminal(achar(13)//line//'    ')
          self%shown = .true.
       end if
       call unlock_texts()
@@ -91,9 +88,8 @@ contains
    !> Wipe the line on the terminal.
    subroutine clear_progress(self)
       class(progress_t), intent(inout) :: self
-      integer :: ignored
 
-      if (self%shown) write (output_unit, '(a)', advance='no', iostat=ignored) achar(13)//repeat(' ', 72)//achar(13)
+      if (self%shown) call show_on_terminal(achar(13)//repeat(' ', 72)//achar(13))
       self%shown = .false.
    end subroutine clear_progress
 

@@ -1,6 +1,7 @@
 !> The lines of a CSV file as fields, read in blocks. Semicolons separate if the first line that is neither empty nor a comment has one
 !> outside quotes, else commas. Numbers have points; where semicolons separate they may have commas instead, all of them.
 module csv_fields
+   use errors, only: error_words, is_shortage
    use file_system, only: is_directory, path_exists
    use kinds, only: dp, int64
    use number_text, only: read_strict_real
@@ -90,6 +91,7 @@ contains
             iostat=stat)
       if (stat /= 0) then
          message = 'it may not be read'
+         if (is_shortage(stat)) message = 'it cannot be opened: '//error_words(stat)
          return
       end if
       call self%start(bytes)

@@ -9,6 +9,7 @@ module csv_table
    use text, only: integer_text
    use unit_text, only: unit_of_text, unit_t
    use word_list, only: word_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none(type, external)
    private
 
@@ -28,6 +29,7 @@ module csv_table
       integer, allocatable :: lines(:)
       !> Most significant digits of a number in the last column that was read, and most of them behind its point
       integer :: most_digits = 0, most_decimals = -range(1.0_dp)
+      logical, private :: gaps_allowed = .false.
       type(csv_text_t), private :: text
       character(:), allocatable, private :: path
       !> What mends a file that cannot be read, as the end of a sentence
@@ -53,7 +55,7 @@ module csv_table
 contains
 
    !> Read all columns of a table.
-   subroutine read_csv_table(path, example, remedy, table, faults)
+   subroutine read_csv_table(path, example, remedy, table, faults, gaps_allowed)
       !> Path of the file
       character(*), intent(in) :: path
       !> A header as it may be
@@ -64,9 +66,12 @@ contains
       type(csv_table_t), intent(out) :: table
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
+      !> Whether a field may be empty, which is not a number then; absent: no
+      logical, intent(in), optional :: gaps_allowed
       integer :: before, i
 
       before = faults%count()
+      if (present(gaps_allowed)) table%gaps_allowed = gaps_allowed
       call table%open(path, most_lines_of_tables, 'that is no table of a test stand', example, remedy, faults)
       if (faults%count() == before) call table%read([(i, i=1, size(table%names))], faults)
       call table%close()
@@ -264,6 +269,10 @@ contains
          call self%text%read_number(self%fields(position), number, sound)
          if (sound) return
          word = self%fields(position)%bare()
+         if (self%gaps_allowed .and. len(word) == 0) then
+            number = ieee_value(number, ieee_quiet_nan)
+            return
+         end if
          message = wrong_separator(self%fields(:self%columns), self%text%separator)
          if (self%text%has_both_marks) message = 'some numbers have a decimal point, others a decimal comma'
          if (len(message) == 0 .and. is_decimal_comma(word)) message = 'column '//integer_text(position)//decimal_commas

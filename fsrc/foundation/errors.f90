@@ -45,7 +45,7 @@ module errors
       procedure :: sort_since => sort_faults_by_line
    end type fault_list_t
 
-   public :: raise, last_error, error_words
+   public :: raise, last_error, error_words, is_shortage
 
    !> Failures of calls of the operating system.
    integer(c_int), parameter, public :: interrupted_call = 4, would_wait = 11, not_permitted = 13, invalid_call = 22, &
@@ -219,6 +219,15 @@ contains
       call c_f_pointer(c_errno_location(), number)
       last_error = number
    end function last_error
+
+   !> Whether a call failed because the system has no memory or open files to spare, whatever it was asked about.
+   elemental logical function is_shortage(number)
+      !> Number of the failure
+      integer(c_int), intent(in) :: number
+      integer(c_int), parameter :: no_memory = 12, too_many_files = 23, too_many_files_of_program = 24
+
+      is_shortage = any(number == [no_memory, too_many_files, too_many_files_of_program])
+   end function is_shortage
 
    !> What the operating system calls a failure.
    function error_words(number) result(words)

@@ -9,10 +9,10 @@ module file_descriptor
 
    !> How an existing file is opened.
    integer(c_int), parameter, public :: read_only = 0, read_and_write = 2
-   integer(c_int), parameter, public :: standard_input = 0, standard_output = 1
+   integer(c_int), parameter, public :: standard_input = 0, standard_output = 1, standard_error = 2
    integer(c_int), parameter :: read_and_write_for_all = 438
    !> Bits that say how a file is opened, as Linux has them.
-   integer(c_int), parameter :: write_only = 1, make_missing = 64, only_new = 128, follow_no_link = 131072
+   integer(c_int), parameter :: write_only = 1, make_missing = 64, only_new = 128, follow_no_link = 131072, name_only = 2097152
 
    interface
       function c_open(path, flags, mode) bind(c, name='open') result(descriptor)
@@ -70,9 +70,28 @@ module file_descriptor
       end function c_pwrite
    end interface
 
-   public :: open_existing, open_new, open_or_make, synchronise_descriptor, close_descriptor, read_bytes, write_bytes
+   public :: reserve_standard_descriptors, open_existing, open_new, open_or_make, synchronise_descriptor, close_descriptor, &
+             read_bytes, write_bytes
 
 contains
+
+   !> Take the standard descriptors that whoever started the program has closed, before any file becomes one of them: what is for the
+   !> terminal would be written into it. Reading and writing fail there as they do where nothing is open.
+   subroutine reserve_standard_descriptors(output_is_closed)
+      !> Whether the standard output was closed
+      logical, intent(out) :: output_is_closed
+      integer(c_int) :: descriptor
+      logical :: ignored
+
+      output_is_closed = .false.
+      do
+         ! The lowest free one is taken; the root folder is always there.
+         descriptor = c_open('/'//c_null_char, name_only, 0_c_int)
+         output_is_closed = output_is_closed .or. descriptor == standard_output
+         if (descriptor < 0 .or. descriptor > standard_error) exit
+      end do
+      if (descriptor > standard_error) call close_descriptor(descriptor, ignored)
+   end subroutine reserve_standard_descriptors
 
    !> Open a file that is there; a negative descriptor: it cannot be opened. A link is followed only to read.
    integer(c_int) function open_existing(path, access) result(descriptor)

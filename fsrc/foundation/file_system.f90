@@ -3,6 +3,7 @@
 module file_system
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int16_t, c_int32_t, c_int64_t, c_null_char, c_null_funptr, &
       c_null_ptr, c_ptr, c_size_t, c_associated, c_f_pointer, c_funptr
+   use errors, only: last_error
    use file_descriptor, only: close_descriptor, open_existing, read_bytes, read_only, standard_input, standard_output
    use kinds, only: int64
    use word_list, only: word_t
@@ -185,21 +186,26 @@ contains
    end subroutine read_whole_file
 
    !> The first bytes of a file, fewer if it is shorter, none if it cannot be read.
-   subroutine first_bytes(path, bytes, got)
+   subroutine first_bytes(path, bytes, got, cause)
       character(*), intent(in) :: path
       !> Filled from the left
       character(*), intent(out) :: bytes
       !> How many bytes were filled
       integer, intent(out) :: got
+      !> Number of the failure, 0: it can be read
+      integer(c_int), optional, intent(out) :: cause
       integer(c_int) :: descriptor
       integer(int64) :: filled
-      logical :: ignored
+      logical :: failed, ignored
 
       got = 0
       bytes = ''
+      if (present(cause)) cause = 0_c_int
       descriptor = open_existing(trim(path), read_only)
+      if (descriptor < 0 .and. present(cause)) cause = last_error()
       if (descriptor < 0) return
-      call read_bytes(descriptor, len(bytes, int64), bytes, filled, ignored)
+      call read_bytes(descriptor, len(bytes, int64), bytes, filled, failed)
+      if (failed .and. present(cause)) cause = last_error()
       got = int(filled)
       call close_descriptor(descriptor, ignored)
    end subroutine first_bytes

@@ -40,7 +40,7 @@ contains
       character(:), allocatable :: text
       character(20) :: buffer
 
-      write (buffer, '(i0)') number
+      write (buffer, '(ss, i0)') number
       text = trim(buffer)
    end function integer_text_long
 
@@ -82,7 +82,7 @@ contains
       end if
       if (is_plain(number)) then
          do digits = 1, 17
-            write (buffer, '(f32.'//integer_text(digits)//')') number
+            write (buffer, '(ss, f32.'//integer_text(digits)//')') number
             read (buffer, *, iostat=stat) back
             if (stat == 0 .and. transfer(back, 1_int64) == transfer(number, 1_int64)) then
                text = trim(adjustl(buffer))
@@ -92,7 +92,7 @@ contains
          end do
       end if
       do digits = 0, 17
-         write (buffer, '(es32.'//integer_text(digits)//'e3)') number
+         write (buffer, '(ss, es32.'//integer_text(digits)//'e3)') number
          read (buffer, *, iostat=stat) back
          if (stat == 0 .and. transfer(back, 1_int64) == transfer(number, 1_int64)) exit
       end do
@@ -113,11 +113,11 @@ contains
          text = '0'
       else if (is_plain(number)) then
          decimals = decimals_of(number, digits)
-         write (buffer, '(f40.'//integer_text(decimals)//')') number
+         write (buffer, '(ss, f40.'//integer_text(decimals)//')') number
          text = trim(adjustl(buffer))
          if (decimals == 0) text = text(:len(text) - 1)
       else
-         write (buffer, '(es40.'//integer_text(digits - 1)//'e3)') number
+         write (buffer, '(ss, es40.'//integer_text(digits - 1)//'e3)') number
          text = plain_exponent(trim(adjustl(buffer)))
       end if
    end function short_text

@@ -3,7 +3,7 @@
 !> tell reaches the standard output in their order: the first of them speaks, the others are kept waiting.
 module text_output
    use, intrinsic :: iso_c_binding, only: c_int
-   use file_descriptor, only: standard_output, write_bytes
+   use file_descriptor, only: standard_error, standard_output, write_bytes
    use kinds, only: int64
    use word_list, only: word_t
    use, intrinsic :: omp_lib, only: omp_destroy_nest_lock, omp_init_nest_lock, omp_nest_lock_kind, omp_set_nest_lock, &
@@ -23,8 +23,8 @@ module text_output
    !> Held by the thread that makes texts: gfortran keeps the length of a text that a function allocates for all threads
    integer(omp_nest_lock_kind) :: text_lock
 
-   public :: put_text, put_line, write_line, note_lost_text, lost_text, share_output, speak_for, end_turn, has_turn, &
-             lock_texts, unlock_texts
+   public :: put_text, put_line, put_error_line, show_on_terminal, write_line, note_lost_text, lost_text, share_output, &
+             speak_for, end_turn, has_turn, lock_texts, unlock_texts
 
 contains
 
@@ -94,6 +94,22 @@ contains
 
       call put_text(text//new_line('a'))
    end subroutine put_line
+
+   !> A line to standard error. Where nobody reads there, the exit code has to do.
+   subroutine put_error_line(text)
+      character(*), intent(in) :: text
+      logical :: ignored
+
+      call write_bytes(standard_error, len(text, kind=int64) + 1_int64, text//new_line('a'), ignored)
+   end subroutine put_error_line
+
+   !> Text to a terminal, which later text writes over.
+   subroutine show_on_terminal(text)
+      character(*), intent(in) :: text
+      logical :: ignored
+
+      call write_bytes(standard_output, len(text, kind=int64), text, ignored)
+   end subroutine show_on_terminal
 
    !> A line to an open file.
    subroutine write_line(descriptor, text, path)

@@ -8,10 +8,12 @@ module completed_scene
    use key_table, only: find_key, keys
    use kinds, only: dp
    use loose_gear_drag, only: gap_is_turbulent
+   use mistaken_units, only: mistaken_words
+   use odd_teeth, only: warnings_of_teeth
    use oil_data, only: kinematic_viscosity, least_viscosity_meant
    use scene_rules, only: rule_t
    use scene_types, only: drag_computed, drag_given, scene_t, set_number, task_sweep, task_threshold
-   use text, only: short_text
+   use text, only: real_text, short_text
    use word_list, only: word_t
    implicit none(type, external)
    private
@@ -32,24 +34,49 @@ contains
       type(fault_list_t), intent(inout) :: faults
       type(rule_t), allocatable :: broken(:)
       real(dp) :: ends(2)
-      integer :: i, dot
+      integer :: i, dot, before
 
+      before = faults%count()
       if (.not. (scene%gear%given .or. scene%oil%given)) return
       call derive(scene)
       allocate (broken, source=derived_rules(scene))
+      if (size(broken) > 0 .and. size(scene%mistaken) > 0) call add_mistaken_units(scene, broken, faults)
       do i = 1, size(broken)
          associate (key => broken(i)%keys)
             dot = index(key, '.')
             call faults%add(scene%source, scene%lines(find_key(key)), key(:dot - 1), trim(key(dot + 1:)), trim(broken(i)%sentence))
          end associate
       end do
-      if (size(broken) > 0) return
+      if (faults%count() > before) return
       if (scene%task == task_sweep) call check_sweep(scene, faults)
       if (scene%oil%given) call tell_oil(scene)
       if (scene%gear%given) call tell_gear(scene)
       ends = ends_of_key(scene, 'shaft.speed_rpm', scene%shaft%speed_rpm)
       if (scene%gear%given) scene%warnings = [scene%warnings, beyond_measured_speeds(scene, ends(1), ends(2))]
+      if (scene%gear%given) call tell_teeth(scene)
    end subroutine complete_scene
+
+   !> Units come before rules: numbers that were surely meant in another unit are refused, and of the rules only those remain that
+   !> the scene breaks in these units, too.
+   subroutine add_mistaken_units(scene, broken, faults)
+      type(scene_t), intent(in) :: scene
+      type(rule_t), allocatable, intent(inout) :: broken(:)
+      type(fault_list_t), intent(inout) :: faults
+      type(rule_t), allocatable :: still_broken(:)
+      type(scene_t) :: meant
+      integer :: i
+
+      meant = scene
+      do i = 1, size(scene%mistaken)
+         associate (number => scene%mistaken(i), key => keys(scene%mistaken(i)%key))
+            call faults%add(number%source, number%line, trim(key%group), trim(key%name), number%sentence)
+            call set_number(meant, key%group, key%name, number%meant)
+         end associate
+      end do
+      call derive(meant)
+      allocate (still_broken, source=derived_rules(meant))
+      broken = pack(broken, [(any(still_broken%keys == broken(i)%keys), i=1, size(broken))])
+   end subroutine add_mistaken_units
 
    !> The scenes at all values of a sweep can be derived.
    subroutine check_sweep(scene, faults)
@@ -57,6 +84,7 @@ contains
       type(fault_list_t), intent(inout) :: faults
       type(rule_t), allocatable :: broken(:)
       type(scene_t) :: swept
+      character(:), allocatable :: sentence
       integer :: i
 
       swept = scene
@@ -67,8 +95,10 @@ contains
             if (allocated(broken)) deallocate (broken)
             allocate (broken, source=derived_rules(swept))
             if (size(broken) == 0) cycle
+            sentence = mistaken_words(keys(sweep%key), sweep%values(i))
+            if (len(sentence) == 0) sentence = trim(broken(1)%sentence)
             call faults%add(scene%source, 0, 'sweep', trim(merge('last ', 'first', i == sweep%outward)), &
-                            'at '//short_text(sweep%values(i), 7)//': '//trim(broken(1)%sentence))
+                            'at '//short_text(sweep%values(i), 7)//': '//sentence)
             exit
          end do
       end associate
@@ -161,6 +191,34 @@ contains
                          'a run-up (&shaft table) has one for each speed')]
       end associate
    end function beyond_measured_speeds
+   !> Warnings of the teeth of a pair, and of those at both ends of what is varied.
+   subroutine tell_teeth(scene)
+      type(scene_t), intent(inout) :: scene
+      character(*), parameter :: names(7) = [character(18) :: 'normal_module', 'pressure_angle_deg', 'helix_angle_deg', &
+                                             'centre_distance', 'contact_position', 'tip_diameter_1', 'tip_diameter_2']
+      type(word_t), allocatable :: lines(:)
+      type(scene_t) :: varied
+      real(dp) :: values(size(names)), ends(2)
+      integer :: i, j
+
+      allocate (lines, source=warnings_of_teeth(scene, ''))
+      if (size(lines) == 0) then
+         associate (gear => scene%gear)
+            values = [gear%normal_module, gear%pressure_angle_deg, gear%helix_angle_deg, gear%centre_distance, &
+                      gear%contact_position, gear%tip_diameter_1, gear%tip_diameter_2]
+         end associate
+         do i = 1, size(names)
+            ends = ends_of_key(scene, 'gear.'//trim(names(i)), values(i))
+            do j = 1, 2
+               if (.not. abs(ends(j) - values(i)) > 0.0_dp) cycle
+               varied = scene
+               call set_number(varied, 'gear', names(i), ends(j))
+               lines = [lines, warnings_of_teeth(varied, 'at '//trim(names(i))//' = '//real_text(ends(j))//': ')]
+            end do
+         end do
+      end if
+      scene%warnings = [scene%warnings, lines]
+   end subroutine tell_teeth
 
    !> What follows from &gear and &shaft.
    subroutine tell_gear(scene)
@@ -183,8 +241,9 @@ contains
          call tell(scene, 'gear.centre_distance', [contact%centre_distance], 'm')
          call tell(scene, 'gear.working_pressure_angle', [contact%working_pressure_angle], 'deg')
          call tell(scene, 'gear.base_helix_angle', [contact%base_helix_angle], 'deg')
-         call tell(scene, 'gear.contact_ratio', [contact%contact_ratio], '')
-         call tell(scene, 'gear.overlap_ratio', [contact%overlap_ratio], '')
+         call tell(scene, 'gear.profile_shift_sum', [scene%teeth%shift_sum], '')
+         call tell(scene, 'gear.contact_ratio', [scene%teeth%contact_ratio], '')
+         call tell(scene, 'gear.overlap_ratio', [scene%teeth%overlap_ratio], '')
          if (scene%gear%tip_diameter_1 > 0.0_dp) call tell(scene, 'gear.contact_lines', [contact%contact_lines], '')
          if (scene%drag%known_by /= drag_given) call tell(scene, 'gear.drag_torque', [scene%drag%torque], 'N m')
          if (scene%drag%known_by == drag_computed) then

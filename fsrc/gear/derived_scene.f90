@@ -35,6 +35,7 @@ contains
       if (.not. scene%gear%given) return
       scene%drag = drag_of_gear(scene%gear, scene%shaft%speed_rpm, scene%oil)
       call find_contact(scene%gear, scene%drag%torque, scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
+      scene%teeth = contact%teeth
       scene%contact%radius = contact%radius
       scene%contact%length = contact%length
       scene%contact%backlash = scene%gear%backlash
@@ -180,7 +181,7 @@ contains
          case (drag_computed)
             cause = 'gear.bearing_mean_diameter'
             if (gear%immersion_depth > reference_diameter(gear)) then
-               write (sentence, '(2(a, es10.3), a)') 'the reference circle of gear 2 has a diameter of ', &
+               write (sentence, '(ss, 2(a, es10.3), a)') 'the reference circle of gear 2 has a diameter of ', &
                   reference_diameter(gear), ' m, and its lowest point cannot lie', gear%immersion_depth, ' m below the oil'
                call add(broken, 'gear.immersion_depth', sentence)
             end if
@@ -193,7 +194,7 @@ contains
          end select
          call demand(broken, 'load.steady_force', scene%excitation%steady_force, trim(cause))
          if (scene%drag%known_by == drag_given .or. gear%backlash > 0.0_dp .or. scene%drag%torque > 0.0_dp) return
-         write (sentence, '(a, es10.3, a)') 'without a backlash the drag torque must be positive; here it is', &
+         write (sentence, '(ss, a, es10.3, a)') 'without a backlash the drag torque must be positive; here it is', &
             scene%drag%torque, ' N m'
          call add(broken, trim(cause), sentence)
       end associate
@@ -212,7 +213,7 @@ contains
       character(sentence_length) :: sentence
 
       if (is_within(axis, value)) return
-      write (sentence, '(a, g0.7, 5a, 2(g0.7, a))') 'it is ', value, ' ', trim(keys(find_key(key))%unit), ' and ', &
+      write (sentence, '(ss, a, g0.7, 5a, 2(g0.7, a))') 'it is ', value, ' ', trim(keys(find_key(key))%unit), ' and ', &
          trim(table), ' goes from ', axis(1), ' to ', axis(size(axis)), ' '//trim(keys(find_key(key))%unit)
       call add(broken, key, sentence)
    end subroutine demand_within
@@ -239,7 +240,7 @@ contains
 
       position = find_key(key)
       if (is_computable(keys(position), value)) return
-      write (sentence, '(3a, es9.2, 3a, es8.1, a, es8.1)') 'the ', trim(keys(position)%name), ' that follows is ', value, ' ', &
+      write (sentence, '(ss, 3a, es9.2, 3a, es8.1, a, es8.1)') 'the ', trim(keys(position)%name), ' that follows is ', value, ' ', &
          trim(keys(position)%unit), '; possible:', keys(position)%computable(1), ' to', keys(position)%computable(2)
       call add(broken, cause, sentence)
    end subroutine demand

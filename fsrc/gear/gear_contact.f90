@@ -3,8 +3,10 @@
 !> point agree with ISO/TR 15144-1 (normal radius of relative curvature, sum of the tangential velocities).
 module gear_contact
    use constants, only: pi, two_pi
+   use involute_teeth, only: find_teeth, mesh_t, pitch_share
    use kinds, only: dp
-   use scene_types, only: gear_t
+   use scene_rules, only: sentence_length
+   use scene_types, only: gear_t, teeth_t
    implicit none(type, external)
    private
 
@@ -26,9 +28,9 @@ module gear_contact
       real(dp) :: radius = 0.0_dp
       real(dp) :: length = 0.0_dp
       real(dp) :: tooth_width = 0.0_dp
-      !> Contact ratios eps_alpha, by the tip diameters or those of teeth as high as usual, and eps_beta; lines in contact
-      real(dp) :: contact_ratio = 0.0_dp
-      real(dp) :: overlap_ratio = 0.0_dp
+      !> The teeth, and the lines in contact: where tip diameters are given eps_alpha, since the mean length of all lines is
+      !> eps_alpha b/cos beta_b whatever eps_beta is
+      type(teeth_t) :: teeth
       real(dp) :: contact_lines = 0.0_dp
       !> Surface speeds u_1 and u_2, and entrainment speed U [m/s]
       real(dp) :: surface_speed_1 = 0.0_dp
@@ -53,12 +55,13 @@ contains
       real(dp), intent(in) :: drag_torque
       !> Speed n/60 of the shaft [1/s]
       real(dp), intent(in) :: shaft_speed
-      !> Its contact; radii, angles and ends of the line of action are known too where only contact_position is wrong
+      !> Its contact; radii, angles, ends of the line of action and teeth are known too where only contact_position is wrong
       type(gear_contact_t), intent(out) :: contact
       !> Component of the pair that is wrong, empty if none is
       character(:), allocatable, intent(out) :: wrong
       !> What is wrong with it
       character(:), allocatable, intent(out) :: message
+      type(mesh_t) :: mesh
       real(dp) :: transverse_module, helix, transverse_angle, base_helix, working, rho_1, rho_2
 
       wrong = ''
@@ -82,6 +85,11 @@ contains
       contact%working_pressure_angle = working/degree
       contact%first_position = -contact%base_radius_1*tan(working)
       contact%last_position = contact%base_radius_2*tan(working)
+      mesh = mesh_t(0.5_dp*transverse_module*real([pair%teeth_1, pair%teeth_2], dp), &
+                    [contact%base_radius_1, contact%base_radius_2], contact%centre_distance, transverse_angle, working, helix)
+      contact%teeth = find_teeth(pair, mesh)
+      call find_wrong_teeth(pair, mesh, contact%teeth, wrong, message)
+      if (len(wrong) > 0) return
       rho_1 = pair%contact_position - contact%first_position
       rho_2 = contact%last_position - pair%contact_position
       if (.not. min(rho_1, rho_2) > 0.0_dp) then
@@ -89,8 +97,13 @@ contains
          message = 'it lies beyond the line of action, which touches the base circles at its ends'
          return
       end if
-      call find_contact_ratios(pair, transverse_module, transverse_angle, working, contact, wrong, message)
-      if (len(wrong) > 0) return
+      if (contact%teeth%tips_given .and. any([rho_1, rho_2] > contact%teeth%reach)) then
+         wrong = 'contact_position'
+         message = 'no teeth touch there: it lies beyond a tip'
+         return
+      end if
+      contact%contact_lines = pair%contact_lines
+      if (contact%teeth%tips_given) contact%contact_lines = contact%teeth%contact_ratio
       contact%radius = rho_1*rho_2/((rho_1 + rho_2)*cos(base_helix))
       contact%tooth_width = pair%face_width*contact%contact_lines
       contact%length = contact%tooth_width/cos(base_helix)
@@ -102,55 +115,52 @@ contains
       contact%force_per_acceleration = contact%mass*cos(base_helix)*contact%base_radius_1
    end subroutine find_contact
 
-   !> Contact ratios, and the lines in contact: with tip diameters the transverse contact ratio, since the mean length of all lines
-   !> is eps_alpha b/cos beta_b whatever eps_beta is. Without them the ratio is that of tips at r + m_n (1 + x), both
-   !> gears with half of the sum of the profile shifts. ISO 21771.
-   pure subroutine find_contact_ratios(pair, transverse_module, transverse_angle, working, contact, wrong, message)
+   !> What is wrong with the teeth of a pair, empty if nothing is, with the name of the value that would have to change.
+   pure subroutine find_wrong_teeth(pair, mesh, teeth, wrong, message)
       type(gear_t), intent(in) :: pair
-      real(dp), intent(in) :: transverse_module
-      !> alpha_t and alpha_wt [rad]
-      real(dp), intent(in) :: transverse_angle
-      real(dp), intent(in) :: working
-      !> With base radii and centre distance
-      type(gear_contact_t), intent(inout) :: contact
+      type(mesh_t), intent(in) :: mesh
+      type(teeth_t), intent(in) :: teeth
       character(:), allocatable, intent(inout) :: wrong
       character(:), allocatable, intent(inout) :: message
       character(*), parameter :: names(2) = ['tip_diameter_1', 'tip_diameter_2']
-      real(dp) :: tips(2), bases(2), roots(2), line, shift, helix
-      logical :: given
+      character(sentence_length) :: sentence
+      character(12) :: numbers(3)
+      real(dp) :: share
       integer :: i
 
-      helix = degree*pair%helix_angle_deg
-      given = pair%tip_diameter_1 > 0.0_dp .and. pair%tip_diameter_2 > 0.0_dp
-      shift = 0.5_dp*real(pair%teeth_1 + pair%teeth_2, dp)*(involute(working) - involute(transverse_angle)) &
-              /(2.0_dp*tan(degree*pair%pressure_angle_deg))
-      tips = 0.5_dp*transverse_module*real([pair%teeth_1, pair%teeth_2], dp) + pair%normal_module*(1.0_dp + shift)
-      if (given) tips = 0.5_dp*[pair%tip_diameter_1, pair%tip_diameter_2]
-      bases = [contact%base_radius_1, contact%base_radius_2]
-      line = contact%centre_distance*sin(working)
-      roots = sqrt(max(0.0_dp, (tips - bases)*(tips + bases)))
-      contact%contact_ratio = (sum(roots) - line)/(pi*transverse_module*cos(transverse_angle))
-      contact%overlap_ratio = pair%face_width*sin(abs(helix))/(pi*pair%normal_module)
-      contact%contact_lines = pair%contact_lines
-      if (.not. given) return
-      contact%contact_lines = contact%contact_ratio
+      if (teeth%largest_ratio < 1.0_dp) then
+         wrong = 'centre_distance'
+         write (numbers, '(f12.5)') mesh%distance, mesh%working_angle/degree, sum(mesh%reference)
+         numbers = adjustl(numbers)
+         sentence = 'no teeth have a contact ratio of 1 at '//trim(numbers(1))//' m, a pressure angle of '//trim(numbers(2))// &
+                    ' deg; without profile shift it is '//trim(numbers(3))//' m'
+         if (.not. pair%centre_distance > 0.0_dp) then
+            wrong = trim(merge('teeth_1           ', 'pressure_angle_deg', tan(mesh%working_angle) < 1.0_dp))
+            sentence = 'no teeth of so many have a contact ratio of 1 at a transverse pressure angle of '//trim(numbers(2))//' deg'
+         end if
+         message = trim(sentence)
+         return
+      end if
+      if (.not. teeth%tips_given) return
       do i = 1, 2
-         if (len(wrong) > 0) exit
-         if (tips(i) <= bases(i)) message = 'the tip lies within the base circle'
-         if (roots(i) > line) message = 'tips interfere: it reaches beyond the end of the line of action'
-         if (len(message) > 0) wrong = names(i)
+         if (.not. teeth%reach(i) > 0.0_dp) message = 'the tip lies within the base circle'
+         if (teeth%reach(i) > mesh%distance*sin(mesh%working_angle)) &
+            message = 'tips interfere: it reaches beyond the end of the line of action'
+         if (len(message) > 0) then
+            wrong = names(i)
+            return
+         end if
       end do
-      if (len(wrong) > 0 .or. contact%contact_ratio > 0.0_dp) return
-      wrong = names(1)
-      message = 'the teeth of both gears do not reach each other'
-   end subroutine find_contact_ratios
-
-   !> inv alpha = tan alpha - alpha.
-   pure real(dp) function involute(angle)
-      !> [rad]
-      real(dp), intent(in) :: angle
-
-      involute = tan(angle) - angle
-   end function involute
+      share = pitch_share(pair, mesh, teeth%reach)
+      if (share > 1.0_dp) then
+         wrong = names(1)
+         write (sentence, '(a, g0.3, a)') 'teeth are pointed below such tips, whatever their profile shifts: those of both '// &
+            'gears would need ', share, ' of the pitch at the pitch circles'
+         message = trim(sentence)
+      else if (.not. teeth%contact_ratio > 0.0_dp) then
+         wrong = names(1)
+         message = 'the teeth of both gears do not reach each other'
+      end if
+   end subroutine find_wrong_teeth
 
 end module gear_contact

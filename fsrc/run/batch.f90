@@ -1,7 +1,6 @@
 !> All scenes of a call: everything is checked before anything runs.
 module batch
    use automatic_model, only: choose_model, closure_instead
-   use, intrinsic :: iso_fortran_env, only: error_unit
    use command_line, only: command_t
    use engine, only: checkpoint_t
    use earlier_files, only: check_earlier_files
@@ -12,18 +11,18 @@ module batch
    use key_table, only: find_key
    use memory_need, only: expect_scene_memory, scenes_that_fit
    use output_lock, only: output_lock_t
-   use output_place, only: check_output_place, claim_output_place
+   use output_place, only: check_output_place, claim_output_place, log_path
    use prepared_scene, only: resolve
    use resume, only: load_state
    use run_film, only: run_film_task
    use run_scene, only: run_one_scene
    use run_sweep, only: run_sweep_task
    use scene_report, only: law_sentence, resolved_lines
-   use scene_status, only: is_success, status_complete, status_interrupted
+   use scene_status, only: is_success, status_complete, status_interrupted, status_sentence
    use scene_types, only: method_newmark, model_resolved, scene_t, task_film, task_motion, task_sweep
    use signals, only: caught_signal
-   use text, only: integer_text
-   use text_output, only: end_turn, lock_texts, put_line, put_text, share_output, speak_for, unlock_texts
+   use text, only: counted, integer_text
+   use text_output, only: end_turn, lock_texts, put_error_line, put_line, put_text, share_output, speak_for, unlock_texts
    use word_list, only: word_t
    use, intrinsic :: omp_lib, only: omp_get_max_threads
    implicit none(type, external)
@@ -198,7 +197,7 @@ contains
          end if
          in_trouble = has_trouble(outcome)
          if (allocated(outcome%error)) then
-            write (error_unit, '(a)') outcome%error%message
+            call put_error_line(outcome%error%message)
             exit_code = outcome%error%exit_code
          else if (in_trouble) then
             call print_faults(outcome%faults)
@@ -206,11 +205,28 @@ contains
          else if (outcome%status == status_interrupted .or. &
                   (is_last_begun .and. place < size(scenes) .and. caught_signal() /= 0)) then
             exit_code = 128 + caught_signal()
-         else if (exit_code == exit_complete .and. outcome%failed > 0) then
-            exit_code = exit_scene_failed
+         else if (outcome%failed > 0) then
+            if (exit_code == exit_complete) exit_code = exit_scene_failed
+            if (command%quiet) call put_error_line(failure_line(scenes(place), outcome))
          end if
       end associate
    end subroutine settle_place
+
+   !> What became of a scene that failed, for who wants nothing but faults.
+   function failure_line(scene, outcome) result(line)
+      type(scene_t), intent(in) :: scene
+      type(outcome_t), intent(in) :: outcome
+      character(:), allocatable :: line
+
+      line = scene%source//': '
+      if (scene%task == task_motion) then
+         if (scene%gearbox /= '') line = line//trim(scene%name)//': '
+         line = line//status_sentence(outcome%status)
+      else
+         line = line//counted(outcome%failed, 'motion')//' failed;'
+      end if
+      line = line//' '//log_path(scene)//' has more'
+   end function failure_line
 
    !> Whether the place of the files of a scene was taken, or they could not be written.
    pure logical function has_trouble(outcome)
@@ -401,9 +417,9 @@ contains
 
       do i = 1, faults%count()
          if (any([(faults%sentence(j) == faults%sentence(i), j=1, i - 1)])) cycle
-         write (error_unit, '(a)') faults%sentence(i)
+         call put_error_line(faults%sentence(i))
       end do
-      if (faults%not_kept() > 0) write (error_unit, '(a)') 'and '//integer_text(faults%not_kept())//' faults more'
+      if (faults%not_kept() > 0) call put_error_line('and '//integer_text(faults%not_kept())//' faults more')
    end subroutine print_faults
 
 end module batch

@@ -4,6 +4,7 @@ module command_line
    use file_system, only: read_whole_file
    use input_key, only: list_kind, text_kind
    use key_table, only: find_key, keys
+   use namelist_text, only: repeated_group
    use scene_reader, only: override_t
    use text, only: integer_text, lower, quoted, quoted_words
    use word_list, only: word_t
@@ -166,7 +167,8 @@ contains
       character(*), intent(in) :: source
       type(command_t), intent(inout) :: command
       type(fault_list_t), intent(inout) :: faults
-      integer :: dot, equals
+      character(:), allocatable :: group, key
+      integer :: dot, equals, pair
 
       equals = index(setting, '=')
       dot = index(setting(:max(equals, 1)), '.')
@@ -174,9 +176,27 @@ contains
          call faults%add(source, 0, '', '', 'write it as group.key=value')
          return
       end if
-      command%overrides = [command%overrides, override_t(source, '&'//setting(:dot - 1)//' '//setting(dot + 1:equals)// &
-                                                         value_of(setting(:equals - 1), setting(equals + 1:))//new_line('a')//'/')]
+      group = setting(:dot - 1)
+      key = setting(dot + 1:equals - 1)
+      pair = pair_of(group)
+      if (pair > 0) group = repeated_group
+      command%overrides = [command%overrides, override_t( &
+                           source, '&'//group//' '//key//'='//value_of(group//'.'//key, setting(equals + 1:))//new_line('a')//'/', &
+                           pair)]
    end subroutine add_override
+
+   !> The number of the gear pair that a setting is for, as in gear(2); 0 where it names none.
+   pure integer function pair_of(group)
+      character(*), intent(in) :: group
+      integer, parameter :: first = len(repeated_group) + 2, most_digits = 6
+      integer :: last
+
+      pair_of = 0
+      last = len(group) - 1
+      if (last < first .or. last - first >= most_digits) return
+      if (lower(group(:first - 1)) /= repeated_group//'(' .or. group(last + 1:) /= ')') return
+      if (verify(group(first:last), '0123456789') == 0) read (group(first:last), *) pair_of
+   end function pair_of
 
    !> A setting as it is reported in faults: nobody reads thousands of numbers.
    pure function shortened(setting) result(short)
@@ -234,7 +254,8 @@ contains
              end_of_line// &
              '  --keys                 print tables of all keys and quantities, which input/README.md explains'//end_of_line// &
              '  --quantities           print the table of quantities as CSV'//end_of_line// &
-             '  --set group.key=value  override a key in every file; may be repeated; @FILE has one in each line'//end_of_line// &
+             '  --set group.key=value  override a key in every file; may be repeated; @FILE has one in each line;'//end_of_line// &
+             '                         gear(2).key is that of the second gear pair alone, gear.key that of all'//end_of_line// &
              '  --output DIR           folder of the output files'//end_of_line// &
              '  --resume               carry on an earlier run from its state, or begin it'//end_of_line// &
              '  --threads N            threads of a campaign; scenes that run side by side'//end_of_line// &

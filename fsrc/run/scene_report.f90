@@ -67,6 +67,9 @@ contains
       type(judged_scene_t), intent(in) :: judged
 
       call report_head(log, scene, law_sentence(scene))
+      if (scene%gear%given) call log%line('  profile shift sum '//short_text(scene%teeth%shift_sum, 3)//', contact ratio '// &
+                                          short_text(scene%teeth%contact_ratio, 4)//', overlap ratio '// &
+                                          short_text(scene%teeth%overlap_ratio, 4))
       if (judged%resolved%steady_film > 0.0_dp) then
          call report_part(log, judged, part_scene)
          if (.not. judged%resolved%natural_frequency > 0.0_dp) &
@@ -196,13 +199,28 @@ contains
                           resolved%problem%contact%film%radius)
       if (resolved%problem%initial_film > 0.0_dp .and. limit /= within_model) &
          lines = lines//'! warning: at rest '//model_limit_sentence(limit)//' (model_limit)'//end_of_line
-      if (scene%gear%given) lines = lines//drag_advice(resolved)
+      if (scene%gear%given) lines = lines//teeth_advice(scene)//drag_advice(resolved)
       lines = lines//law_advice(scene)
       warning = stiffness_warning(scene, 'at rest', share)
       if (len(warning) > 0) lines = lines//'! '//warning//end_of_line
       lines = lines//'! A, B and alpha p are those of the Reynolds film with u = '// &
               short_text(resolved%problem%contact%film%speed, 6)//' m/s, '//speed_meaning(scene)
    end function resolved_lines
+
+   !> Profile shifts and contact ratios of a gear pair.
+   pure function teeth_advice(scene) result(lines)
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: lines
+      character(1), parameter :: end_of_line = new_line('a')
+
+      associate (teeth => scene%teeth)
+         lines = '! sum of profile shifts                '//short_text(teeth%shift_sum, 4)//' normal modules'//end_of_line// &
+                 '! contact ratio, overlap ratio         '//short_text(teeth%contact_ratio, 4)//', '// &
+                 short_text(teeth%overlap_ratio, 4)
+         if (.not. teeth%tips_given) lines = lines//', of teeth as high as usual'
+      end associate
+      lines = lines//end_of_line
+   end function teeth_advice
 
    !> What holds the teeth of a gear pair together, part by part, and whether inertia pulls them apart.
    pure function drag_advice(resolved) result(lines)

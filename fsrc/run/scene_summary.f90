@@ -95,6 +95,9 @@ contains
       type(scene_t), intent(in) :: scene
 
       if (scene%gear%given) then
+         call summary%add('profile_shift_sum', scene%teeth%shift_sum)
+         call summary%add('contact_ratio', scene%teeth%contact_ratio)
+         call summary%add('overlap_ratio', scene%teeth%overlap_ratio)
          call summary%add('radius', scene%contact%radius)
          call summary%add('length', scene%contact%length)
          if (scene%contact%backlash > 0.0_dp) call summary%add('backlash', scene%contact%backlash)

@@ -3,18 +3,18 @@ module input_entry
    use errors, only: fault_list_t
    use input_key, only: allowed_text, in_range, integer_kind, is_list, key_t, list_kind, logical_kind, path_limit, &
                         real_kind, reals_kind, table_kind, text_kind
-   use kinds, only: dp
+   use kinds, only: dp, int64
    use mistaken_units, only: meant_behind
-   use namelist_scanner, only: value_t
-   use namelist_text, only: assignment_t
+   use namelist_scanner, only: subscript_t, value_t
+   use namelist_text, only: assignment_t, most_elements
    use number_text, only: read_strict_integer, read_strict_real
    use scene_types, only: numbers_t
-   use text, only: integer_text, logical_text, lower, printable, quoted, quoted_words, real_text
-   use word_list, only: split_words, word_count, word_position, word_t
+   use text, only: counted, integer_text, logical_text, lower, printable, quoted, quoted_words, real_text
+   use word_list, only: split_words, word_position, word_t
    implicit none(type, external)
    private
 
-   !> Words of a list that are set one by one
+   !> Words of a list
    integer, parameter :: most_words = 1000
 
    !> Value of one key.
@@ -26,6 +26,8 @@ module input_entry
       !> Input it was set in, and the line there (0: on the command line)
       character(:), allocatable :: file
       integer :: line = 0
+      !> What was set: by element of a list, by element and column of a table; a null value where nothing was
+      type(value_t), allocatable :: elements(:, :)
       real(dp) :: number = 0.0_dp
       integer :: count = 0
       logical :: flag = .false.
@@ -38,7 +40,7 @@ module input_entry
       type(numbers_t), allocatable :: columns(:)
    end type entry_t
 
-   public :: new_entry, set_entry, continues_list, value_text, numbers_text, place_of
+   public :: new_entry, set_entry, close_list, value_text, numbers_text, place_of
 
 contains
 
@@ -49,14 +51,13 @@ contains
       character(*), intent(in) :: file
       type(entry_t) :: entry
       type(word_t), allocatable :: words(:)
-      type(value_t), allocatable :: values(:)
       type(fault_list_t) :: none
       integer :: i
 
       entry%file = file
       entry%word = ''
       entry%words = ''
-      allocate (entry%numbers(0), entry%columns(0))
+      allocate (entry%numbers(0), entry%columns(0), entry%elements(0, 0))
       entry%present = key%default /= '' .and. key%default /= 'required'
       if (.not. entry%present) return
       if (key%kind == list_kind) then
@@ -65,177 +66,270 @@ contains
          allocate (words(1))
          words(1)%text = trim(key%default)
       end if
-      allocate (values(size(words)))
+      call make_room(entry%elements, size(words), 1)
       do i = 1, size(words)
-         values(i)%text = words(i)%text
-         values(i)%quoted = any(key%kind == [text_kind, list_kind])
+         entry%elements(i, 1) = default_value(key, words(i)%text)
+         call read_value(key, entry%elements(i, 1), entry, none)
       end do
-      call add_values(key, values, entry, none)
+      call close_list(key, entry, none)
+      ! The default of a list is no beginning of it.
+      deallocate (entry%elements)
+      allocate (entry%elements(0, 0))
    end function new_entry
 
-   !> Read the value of one assignment into its entry.
-   subroutine set_entry(key, assignment, entry, file, faults)
+   !> Value that the key table gives.
+   pure type(value_t) function default_value(key, text) result(value)
+      type(key_t), intent(in) :: key
+      character(*), intent(in) :: text
+
+      value%text = text
+      value%quoted = any(key%kind == [text_kind, list_kind])
+   end function default_value
+
+   !> Read the values of one assignment into the elements of its entry. A null value leaves its element as it was.
+   subroutine set_entry(key, assignment, overriding, entry, file, faults)
       type(key_t), intent(in) :: key
       !> The assignment
       type(assignment_t), intent(in) :: assignment
-      !> Takes the value, or becomes faulty
+      !> Whether elements may be set that are set already
+      logical, intent(in) :: overriding
+      !> Takes the values, or becomes faulty
       type(entry_t), intent(inout) :: entry
       !> Name of the source of the assignment for the faults
       character(*), intent(in) :: file
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
-      type(entry_t) :: before
-      integer :: length
+      character(:), allocatable :: message
+      integer :: i, last, row, column
 
-      ! The default of a list is no beginning of it.
-      length = 0
-      if (entry%given) length = list_length(key, entry)
-      before = entry
+      if (.not. assignment%sound) then
+         entry%given = .true.
+         entry%faulty = .true.
+         entry%file = file
+         entry%line = assignment%line
+         return
+      end if
+      do last = size(assignment%values), 1, -1
+         if (allocated(assignment%values(last)%text)) exit
+      end do
+      if (last == 0) return
+      message = refusal(key, assignment, entry, last)
+      if (message == '' .and. .not. overriding) message = set_already(assignment, entry, last)
+      if (message /= '') then
+         call faults%add(file, assignment%line, assignment%group, assignment%key, message)
+         ! What was set before stands where it was set.
+         if (entry%given) return
+      end if
       entry%given = .true.
       entry%file = file
       entry%line = assignment%line
-      entry%faulty = .not. assignment%sound
+      entry%faulty = message /= ''
       if (entry%faulty) return
-      if (key%kind == table_kind .and. .not. assignment%whole_column) then
-         call refuse('give it as '//trim(key%name)//'(:, 1) = ..., '//trim(key%name)//'(:, 2) = ...')
-         return
-      else if (key%kind /= table_kind .and. assignment%whole_column) then
-         call refuse('takes no (:, i)')
-         return
-      end if
-      if (.not. is_list(key)) then
-         if (assignment%first_element /= 0) then
-            call refuse('takes no index')
-            return
-         else if (size(assignment%values) > 1) then
-            call refuse('takes one value, '//integer_text(size(assignment%values))//' are given'//comma_hint())
-            return
-         end if
-      else if (assignment%first_element > length + 1) then
-         call refuse('element '//integer_text(assignment%first_element)//' is given, but element '//integer_text(length + 1)// &
-                     ' is not; a list is given from its first element on')
-         return
-      else if (key%kind == list_kind .and. assignment%first_element > most_words) then
-         call refuse('at most '//integer_text(most_words)//' elements are allowed')
-         return
-      end if
-      if (length == 0 .or. assignment%first_element <= length) then
-         entry%words = ''
-         entry%numbers = [real(dp) ::]
-         deallocate (entry%columns)
-         allocate (entry%columns(0))
-         call add_elements(before, 1, min(assignment%first_element - 1, length), entry)
-      end if
-      call add_values(key, assignment%values, entry, faults)
-      ! An element that was given before is replaced; those behind it stay.
-      if (assignment%first_element > 0 .and. .not. entry%faulty) &
-         call add_elements(before, list_length(key, entry) + 1, length, entry)
-      if (.not. entry%faulty) entry%present = .true.
-
-   contains
-
-      !> Two whole numbers with a comma between them are surely one number with a decimal comma.
-      pure function comma_hint() result(hint)
-         character(:), allocatable :: hint
-         character(*), parameter :: digits = '0123456789'
-
-         hint = ''
-         if (key%kind /= real_kind .or. .not. assignment%has_comma .or. size(assignment%values) /= 2) return
-         associate (whole => assignment%values(1)%text, decimals => assignment%values(2)%text)
-            if (verify(whole, '+-'//digits) > 0 .or. verify(decimals, digits//'eEdD+-') > 0) return
-            hint = '; the decimal comma is a point here: '//whole//'.'//decimals
-         end associate
-      end function comma_hint
-
-      subroutine refuse(message)
-         character(*), intent(in) :: message
-
-         entry%faulty = .true.
-         call faults%add(file, assignment%line, assignment%group, assignment%key, message)
-      end subroutine refuse
-
+      if (overriding) call forget_behind(assignment%subscripts, last, entry%elements)
+      do i = 1, last
+         if (.not. allocated(assignment%values(i)%text)) cycle
+         call find_element(assignment%subscripts, i, row, column)
+         call read_value(key, assignment%values(i), entry, faults)
+         if (entry%faulty) return
+         call make_room(entry%elements, row, column)
+         entry%elements(row, column) = assignment%values(i)
+         entry%elements(row, column)%line = assignment%line
+      end do
+      entry%present = .true.
    end subroutine set_entry
 
-   !> Put the elements first to last of another list behind those of a list; none if last is smaller.
-   pure subroutine add_elements(before, first, last, entry)
-      type(entry_t), intent(in) :: before
-      integer, intent(in) :: first
-      integer, intent(in) :: last
-      type(entry_t), intent(inout) :: entry
-      type(word_t), allocatable :: words(:)
-      integer :: i
-
-      if (last < first) return
-      if (last <= size(before%numbers)) entry%numbers = [entry%numbers, before%numbers(first:last)]
-      do i = first, min(last, size(before%columns))
-         call append_column(entry%columns, before%columns(i)%numbers)
-      end do
-      allocate (words, source=split_words(before%words))
-      do i = first, min(last, size(words))
-         entry%words = trim(adjustl(entry%words//' '//words(i)%text))
-      end do
-   end subroutine add_elements
-
-   !> Put a column behind those of a table.
-   pure subroutine append_column(columns, numbers)
-      type(numbers_t), allocatable, intent(inout) :: columns(:)
-      real(dp), intent(in) :: numbers(:)
-      type(numbers_t), allocatable :: grown(:)
-      integer :: i
-
-      allocate (grown(size(columns) + 1))
-      do i = 1, size(columns)
-         call move_alloc(columns(i)%numbers, grown(i)%numbers)
-      end do
-      grown(size(grown))%numbers = numbers
-      call move_alloc(grown, columns)
-   end subroutine append_column
-
-   !> Elements that a list has so far.
-   pure integer function list_length(key, entry)
+   !> Why a key cannot take the values of an assignment; empty if it can.
+   pure function refusal(key, assignment, entry, count) result(message)
       type(key_t), intent(in) :: key
-      type(entry_t), intent(in) :: entry
-
-      select case (key%kind)
-      case (reals_kind)
-         list_length = size(entry%numbers)
-      case (table_kind)
-         list_length = size(entry%columns)
-      case default
-         list_length = word_count(entry%words)
-      end select
-   end function list_length
-
-   !> Whether an assignment adds elements to a list: key(i) = ... behind key(i - 1) = ...
-   pure logical function continues_list(key, assignment, entry)
-      type(key_t), intent(in) :: key
-      !> The assignment
       type(assignment_t), intent(in) :: assignment
-      !> What was set before
       type(entry_t), intent(in) :: entry
+      !> Values without null values behind them
+      integer, intent(in) :: count
+      character(:), allocatable :: message
+      integer :: i, limit, row, column
 
-      continues_list = is_list(key) .and. assignment%first_element > 1 .and. &
-                       assignment%first_element > list_length(key, entry)
-   end function continues_list
+      message = ''
+      if (key%kind == table_kind .and. size(assignment%subscripts) /= 2) then
+         message = 'give it as '//trim(key%name)//'(:, 1) = ..., '//trim(key%name)//'(:, 2) = ...'
+      else if (.not. is_list(key) .and. size(assignment%subscripts) > 0) then
+         message = 'takes no index'
+      else if (.not. is_list(key) .and. count > 1) then
+         message = 'takes one value, '//integer_text(count)//' are given'//comma_hint(key, assignment)
+      else if (key%kind /= table_kind .and. size(assignment%subscripts) > 1) then
+         message = 'takes no (:, i)'
+      else
+         limit = merge(most_words, most_elements, key%kind == list_kind)
+         do i = 1, count
+            call find_element(assignment%subscripts, i, row, column)
+            if (row == 0) message = integer_text(count)//' values are given to '//counted(i - 1, 'element')
+            if (row > limit .or. room(entry%elements, row, column) > 8_int64*most_elements) &
+               message = 'at most '//integer_text(limit)//' elements are allowed'
+            if (message /= '') return
+         end do
+      end if
+   end function refusal
 
-   !> Read values as their key asks, and put them behind those that a list has already.
-   subroutine add_values(key, values, entry, faults)
-      type(key_t), intent(in) :: key
-      type(value_t), intent(in) :: values(:)
-      type(entry_t), intent(inout) :: entry
-      type(fault_list_t), intent(inout) :: faults
-      real(dp), allocatable :: numbers(:)
-      integer :: i
+   !> Elements of a table that has room for one more.
+   pure integer(int64) function room(elements, row, column)
+      type(value_t), intent(in) :: elements(:, :)
+      integer, intent(in) :: row
+      integer, intent(in) :: column
 
-      allocate (numbers(size(values)))
-      do i = 1, size(values)
-         call read_value(key, values(i), entry, faults)
-         if (entry%faulty) return
-         numbers(i) = entry%number
+      room = int(max(row, size(elements, 1)), int64)*int(max(column, size(elements, 2)), int64)
+   end function room
+
+   !> Make a table so large that it has an element.
+   pure subroutine make_room(elements, row, column)
+      type(value_t), allocatable, intent(inout) :: elements(:, :)
+      integer, intent(in) :: row
+      integer, intent(in) :: column
+      type(value_t), allocatable :: grown(:, :)
+      integer :: rows, i, j
+
+      if (row <= size(elements, 1) .and. column <= size(elements, 2)) return
+      rows = size(elements, 1)
+      if (row > rows) rows = max(row, min(2*rows, most_elements))
+      allocate (grown(rows, max(column, size(elements, 2))))
+      do j = 1, size(elements, 2)
+         do i = 1, size(elements, 1)
+            if (.not. allocated(elements(i, j)%text)) cycle
+            call move_alloc(elements(i, j)%text, grown(i, j)%text)
+            grown(i, j)%quoted = elements(i, j)%quoted
+            grown(i, j)%line = elements(i, j)%line
+         end do
       end do
-      if (key%kind == reals_kind) entry%numbers = [entry%numbers, numbers]
-      if (key%kind == table_kind) call append_column(entry%columns, numbers)
-   end subroutine add_values
+      call move_alloc(grown, elements)
+   end subroutine make_room
+
+   !> Where a whole list or column is replaced, forget what it had behind the new values.
+   pure subroutine forget_behind(subscripts, length, elements)
+      type(subscript_t), intent(in) :: subscripts(:)
+      !> Of the new list
+      integer, intent(in) :: length
+      type(value_t), intent(inout) :: elements(:, :)
+      integer :: i, row, column
+
+      if (size(subscripts) > 0) then
+         if (.not. subscripts(1)%whole()) return
+      end if
+      call find_element(subscripts, length, row, column)
+      if (column > size(elements, 2)) return
+      do i = row + 1, size(elements, 1)
+         if (allocated(elements(i, column)%text)) deallocate (elements(i, column)%text)
+      end do
+   end subroutine forget_behind
+
+   !> That an element of an assignment was set before; empty if none was.
+   pure function set_already(assignment, entry, count) result(message)
+      type(assignment_t), intent(in) :: assignment
+      type(entry_t), intent(in) :: entry
+      integer, intent(in) :: count
+      character(:), allocatable :: message
+      integer :: i, row, column
+
+      message = ''
+      do i = 1, count
+         if (.not. allocated(assignment%values(i)%text)) cycle
+         call find_element(assignment%subscripts, i, row, column)
+         if (row > size(entry%elements, 1) .or. column > size(entry%elements, 2)) cycle
+         if (.not. allocated(entry%elements(row, column)%text)) cycle
+         message = 'this key'
+         if (size(assignment%subscripts) > 0) message = 'element '//element_name(entry%elements, row, column)
+         message = message//' is set in line '//integer_text(entry%elements(row, column)%line)//' already'
+         return
+      end do
+   end function set_already
+
+   !> Row and column of a value among those of an assignment; row 0 if its subscripts have fewer elements.
+   pure subroutine find_element(subscripts, place, row, column)
+      !> None, one of a list, or two of a table
+      type(subscript_t), intent(in) :: subscripts(:)
+      !> From 1
+      integer, intent(in) :: place
+      integer, intent(out) :: row
+      integer, intent(out) :: column
+      integer :: rows, columns
+
+      row = place
+      column = 1
+      if (size(subscripts) == 0) return
+      rows = subscripts(1)%extent()
+      columns = 1
+      if (size(subscripts) == 2) columns = subscripts(2)%extent()
+      ! Values behind a single element of a list are those of the elements behind it.
+      if (size(subscripts) == 1 .and. subscripts(1)%single) rows = huge(1)
+      row = 0
+      if ((place - 1)/rows >= columns) return
+      row = subscripts(1)%element(1 + mod(place - 1, rows))
+      if (size(subscripts) == 2) column = subscripts(2)%element(1 + (place - 1)/rows)
+   end subroutine find_element
+
+   !> Two whole numbers with a comma between them are surely one number with a decimal comma.
+   pure function comma_hint(key, assignment) result(hint)
+      type(key_t), intent(in) :: key
+      type(assignment_t), intent(in) :: assignment
+      character(:), allocatable :: hint
+      character(*), parameter :: digits = '0123456789'
+
+      hint = ''
+      if (key%kind /= real_kind .or. .not. assignment%has_comma .or. size(assignment%values) /= 2) return
+      if (.not. (allocated(assignment%values(1)%text) .and. allocated(assignment%values(2)%text))) return
+      associate (whole => assignment%values(1)%text, decimals => assignment%values(2)%text)
+         if (verify(whole, '+-'//digits) > 0 .or. verify(decimals, digits//'eEdD+-') > 0) return
+         hint = '; the decimal comma is a point here: '//whole//'.'//decimals
+      end associate
+   end function comma_hint
+
+   !> Put the elements of a list together, once all are known. One that is unset between others is a fault where the key needs it.
+   subroutine close_list(key, entry, faults)
+      type(key_t), intent(in) :: key
+      type(entry_t), intent(inout) :: entry
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      type(numbers_t), allocatable :: columns(:)
+      integer :: lengths(size(entry%elements, 2)), i, j
+
+      if (.not. is_list(key) .or. entry%faulty .or. size(lengths) == 0) return
+      do j = 1, size(lengths)
+         do i = size(entry%elements, 1), 1, -1
+            if (allocated(entry%elements(i, j)%text)) exit
+         end do
+         lengths(j) = i
+      end do
+      entry%words = ''
+      allocate (columns(size(lengths)))
+      do j = 1, size(columns)
+         allocate (columns(j)%numbers(lengths(j)))
+         do i = 1, lengths(j)
+            if (.not. allocated(entry%elements(i, j)%text)) then
+               if (key%unset == '') then
+                  entry%faulty = .true.
+                  call faults%add(entry%file, entry%line, trim(key%group), trim(key%name), 'element '// &
+                                  element_name(entry%elements, i, j)//' is not set, but element '// &
+                                  element_name(entry%elements, lengths(j), j)//' is; every element up to the last is needed')
+                  return
+               end if
+               entry%elements(i, j) = default_value(key, trim(key%unset))
+            end if
+            call read_value(key, entry%elements(i, j), entry, faults)
+            columns(j)%numbers(i) = entry%number
+            if (key%kind == list_kind) entry%words = trim(adjustl(entry%words//' '//entry%word))
+         end do
+      end do
+      if (key%kind == reals_kind) entry%numbers = columns(1)%numbers
+      if (key%kind == table_kind) call move_alloc(columns, entry%columns)
+   end subroutine close_list
+
+   !> An element of a list, or of a table, in words.
+   pure function element_name(elements, row, column) result(name)
+      type(value_t), intent(in) :: elements(:, :)
+      integer, intent(in) :: row
+      integer, intent(in) :: column
+      character(:), allocatable :: name
+
+      name = integer_text(row)
+      if (size(elements, 2) > 1) name = '('//name//', '//integer_text(column)//')'
+   end function element_name
 
    !> Read one value as its key asks.
    subroutine read_value(key, value, entry, faults)
@@ -249,7 +343,7 @@ contains
       sound = .false.
       select case (key%kind)
       case (real_kind, reals_kind, table_kind)
-         if (.not. value%quoted) call read_strict_real(value%text, entry%number, sound)
+         if (.not. value%quoted) call read_strict_real(with_exponent_letter(value%text), entry%number, sound)
          if (sound) sound = in_range(key, entry%number)
       case (integer_kind)
          if (.not. value%quoted) call read_strict_integer(value%text, entry%count, sound)
@@ -263,8 +357,7 @@ contains
          ! Every later question compares whole words: a blank behind one must not make it another.
          if (key%choices /= '') word = trim(word)
          if (sound .and. key%choices /= '') sound = word_position(trim(key%choices), word) > 0
-         if (sound .and. key%kind == text_kind) entry%word = word
-         if (sound .and. key%kind == list_kind) entry%words = trim(adjustl(entry%words//' '//word))
+         if (sound) entry%word = word
       end select
       if (sound) return
       entry%faulty = .true.
@@ -288,7 +381,22 @@ contains
       if (value%quoted) words = quoted(words)
    end function shown
 
-   !> The namelist spellings of true and false.
+   !> Number whose exponent has the letter e: in namelists it may have a q, or none before its sign if the number has a point.
+   pure function with_exponent_letter(text) result(number)
+      character(*), intent(in) :: text
+      character(:), allocatable :: number
+      integer :: place
+
+      number = text
+      place = scan(text, 'qQ')
+      if (place > 0) number(place:place) = 'e'
+      place = scan(text, '+-', back=.true.)
+      if (place < 2) return
+      if (index(text(:place - 1), '.') > 0 .and. verify(text(place - 1:place - 1), '0123456789.') == 0) &
+         number = text(:place - 1)//'e'//text(place:)
+   end function with_exponent_letter
+
+   !> The namelist spellings of true and false, with or without their points.
    pure subroutine read_logical(text, flag, sound)
       character(*), intent(in) :: text
       logical, intent(out) :: flag
@@ -297,9 +405,9 @@ contains
       flag = .false.
       sound = .true.
       select case (lower(text))
-      case ('.true.', 'true', 't', '.t.')
+      case ('.true.', 'true', 't', '.t.', '.true', '.t')
          flag = .true.
-      case ('.false.', 'false', 'f', '.f.')
+      case ('.false.', 'false', 'f', '.f.', '.false', '.f')
       case default
          sound = .false.
       end select

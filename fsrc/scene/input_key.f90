@@ -49,6 +49,8 @@ module input_key
       character(8) :: given_by = ''
       !> Default where &gear stands, if it is another
       character(24) :: with_gear = ''
+      !> What an element of a list means that is left unset between others; empty: each must be set
+      character(8) :: unset = ''
    end type key_t
 
    !> Longest name of a scene, and longest text of any key.

@@ -5,7 +5,7 @@ module key_table
    use kinds, only: dp
    use quantities, only: class_words, measurable, recordable
    use scene_types, only: highest_order, words_of_laws, words_of_tasks
-   use text, only: edit_distance
+   use text, only: edit_distance, lower
    use word_list, only: split_words, word_t
    implicit none(type, external)
    private
@@ -115,7 +115,7 @@ module key_table
             'Amplitude of each harmonic.', sensible=[0.0_dp, 1.0e6_dp], computable=an_amplitude, given_by='shaft'), &
       key_t('load', 'force_phases', reals_kind, 'rad', '', any_number, '', of_motions, &
             'Phase of each harmonic: a cos(2 pi n f t + phase); absent: all 0.', sensible=[-1.0e3_dp, 1.0e3_dp], &
-            computable=a_phase, given_by='shaft'), &
+            computable=a_phase, given_by='shaft', unset='0.0'), &
       key_t('load', 'force_mean', real_kind, 'N', '', any_number, '', of_motions, &
             'Mean of the force beside steady_force: added to it, and not multiplied by force_scale; absent: 0.', &
             sensible=[-1.0e6_dp, 1.0e6_dp], computable=a_signed_force), &
@@ -257,7 +257,7 @@ module key_table
             computable=an_amplitude), &
       key_t('shaft', 'phases', reals_kind, 'rad', '', any_number, '', of_listed_motions, &
             'Phase of each engine order: A cos(2 pi order t speed_rpm/60 + phase) is its acceleration or speed; absent: all 0.', &
-            sensible=[-1.0e3_dp, 1.0e3_dp], computable=a_phase), &
+            sensible=[-1.0e3_dp, 1.0e3_dp], computable=a_phase, unset='0.0'), &
       key_t('shaft', 'signal', text_kind, '', '', any_number, '', of_listed_motions, &
             'CSV file, in the folder of this input, with cycles of the motion of the shaft, uniformly sampled, instead of '// &
             'orders, accelerations (or speed_amplitudes) and phases. Its axis must fit speed_rpm and cycle_revolutions.'), &
@@ -388,7 +388,7 @@ module key_table
       key_t('campaign', 'vary', list_kind, '', '', any_number, '', of_campaigns, &
             'Keys that are varied, as ''group.key'': vary(1) = ..., vary(2) = ...; any numeric key of a motion.'), &
       key_t('campaign', 'scale', list_kind, '', '', any_number, 'linear logarithmic', of_campaigns, &
-            'How the range of each varied key is divided; absent: linear.'), &
+            'How the range of each varied key is divided; absent: linear.', unset='linear'), &
       key_t('campaign', 'first', reals_kind, 'of key', '', any_number, '', of_campaigns, &
             'First value of each varied key.'), &
       key_t('campaign', 'last', reals_kind, 'of key', '', any_number, '', of_campaigns, &
@@ -475,7 +475,7 @@ module key_table
    !> Groups that need not stand; where one does, its required keys are required.
    character(*), parameter, public :: optional_groups(3) = [character(5) :: 'gear', 'shaft', 'oil']
 
-   public :: choice_word, find_key, find_swept_key, key_name, known_group, starts_group, nearest_key, nearest_group
+   public :: choice_word, find_key, find_swept_key, key_name, known_group, starts_group, nearest_key, nearest_group, resembles_group
 
 contains
 
@@ -579,11 +579,22 @@ contains
       best = huge(1)
       nearest = ''
       do i = 1, size(keys)
+         if (.not. starts_group(i)) cycle
          distance = edit_distance(group(:min(len(group), 40)), trim(keys(i)%group))
          if (distance >= best) cycle
          best = distance
          nearest = trim(keys(i)%group)
       end do
    end function nearest_group
+
+   !> Whether a word is a group, or one misspelt.
+   pure logical function resembles_group(word)
+      !> In any case
+      character(*), intent(in) :: word
+      integer, parameter :: short_word = 3
+
+      resembles_group = len(word) > 0 .and. &
+                        edit_distance(lower(word), nearest_group(lower(word))) <= merge(1, 2, len(word) <= short_word)
+   end function resembles_group
 
 end module key_table

@@ -50,15 +50,27 @@ module mistaken_units
       mistake_t('load', 'force_phases', 'deg', degree, 0.0_dp, whole_turn), &
       mistake_t('load', 'gravity', 'mm/s2', milli, 0.0_dp, 100.0_dp), &
       mistake_t('film', 'initial_film', 'um', micro, 1.0e-10_dp, 1.0e-2_dp), &
+      mistake_t('film', 'initial_velocity', 'mm/s', milli, 0.0_dp, 100.0_dp), &
       mistake_t('gear', 'normal_module', 'mm', milli, 3.0e-4_dp, 0.05_dp), &
       mistake_t('gear', 'pressure_angle_deg', 'rad', 1.0_dp/degree, 10.0_dp, 30.0_dp), &
       mistake_t('gear', 'helix_angle_deg', 'rad', 1.0_dp/degree, 2.0_dp, 50.0_dp), &
       mistake_t('gear', 'face_width', 'mm', milli, 1.0e-3_dp, 0.5_dp), &
       mistake_t('gear', 'centre_distance', 'mm', milli, 5.0e-3_dp, 2.0_dp), &
       mistake_t('gear', 'contact_position', 'mm', milli, 0.0_dp, 0.1_dp), &
+      mistake_t('gear', 'tip_diameter_1', 'mm', milli, 5.0e-3_dp, 2.0_dp), &
+      mistake_t('gear', 'tip_diameter_2', 'mm', milli, 5.0e-3_dp, 2.0_dp), &
       mistake_t('gear', 'loose_inertia', 'kg cm2', 1.0e-4_dp, 5.0e-6_dp, 0.1_dp), &
       mistake_t('gear', 'loose_inertia', 'kg mm2', micro, 5.0e-6_dp, 0.1_dp), &
       mistake_t('gear', 'drag_torque', 'N mm', milli, 0.0_dp, 10.0_dp), &
+      mistake_t('gear', 'bearing_mean_diameter', 'mm', milli, 2.0e-3_dp, 1.0_dp), &
+      mistake_t('gear', 'bearing_width', 'mm', milli, 1.0e-3_dp, 0.5_dp), &
+      mistake_t('gear', 'bearing_clearance', 'um', micro, 1.0e-6_dp, 1.0e-3_dp), &
+      mistake_t('gear', 'bearing_clearance', 'mm', milli, 1.0e-6_dp, 1.0e-3_dp), &
+      mistake_t('gear', 'synchroniser_diameter', 'mm', milli, 5.0e-3_dp, 1.0_dp), &
+      mistake_t('gear', 'synchroniser_width', 'mm', milli, 5.0e-4_dp, 0.2_dp), &
+      mistake_t('gear', 'synchroniser_gap', 'um', micro, 1.0e-5_dp, 5.0e-3_dp), &
+      mistake_t('gear', 'synchroniser_gap', 'mm', milli, 1.0e-5_dp, 5.0e-3_dp), &
+      mistake_t('gear', 'immersion_depth', 'mm', milli, 0.0_dp, 1.0_dp), &
       mistake_t('gear', 'backlash', 'um', micro, 1.0e-6_dp, 5.0e-3_dp), &
       mistake_t('gear', 'backlash', 'mm', milli, 1.0e-6_dp, 5.0e-3_dp), &
       mistake_t('gear', 'tooth_stiffness', 'N/(mm um)', 1.0e9_dp, 1.0e8_dp, 1.0e11_dp), &
@@ -72,10 +84,12 @@ module mistaken_units
       mistake_t('oil', 'viscosity_100_cst', 'm2/s', 1.0e6_dp, 1.0_dp, 200.0_dp), &
       mistake_t('oil', 'density_15', 'g/cm3', 1.0e3_dp, 600.0_dp, 1500.0_dp), &
       mistake_t('oil', 'temperature_celsius', 'K', 1.0_dp, 0.0_dp, 200.0_dp, -273.15_dp), &
+      mistake_t('oil', 'volume', 'l', milli, 1.0e-4_dp, 0.1_dp), &
+      mistake_t('oil', 'volume', 'cm3', micro, 1.0e-4_dp, 0.1_dp), &
       mistake_t('oil', 'pressure_viscosity', '1/GPa', 1.0e-9_dp, 1.0e-10_dp, 1.0e-7_dp), &
       mistake_t('oil', 'pressure_viscosity', '1/MPa', 1.0e-6_dp, 1.0e-10_dp, 1.0e-7_dp)]
 
-   public :: is_odd, odd_words, meant_behind, acceleration_meant, speed_meant
+   public :: is_odd, odd_words, meant_behind, mistaken_words, surely_meant, acceleration_meant, speed_meant
 
 contains
 
@@ -133,6 +147,30 @@ contains
       words = meant_words(key, number)
       if (len(words) > 0) words = '; it would be '//words
    end function meant_behind
+
+   !> That a number was surely meant in another unit, as a sentence; empty where it was not.
+   pure function mistaken_words(key, number) result(words)
+      type(key_t), intent(in) :: key
+      !> Finite number
+      real(dp), intent(in) :: number
+      character(:), allocatable :: words
+
+      words = meant_behind(key, number)
+      if (len(words) > 0) words = odd_words(key, number, '')//words
+   end function mistaken_words
+
+   !> What a number would be in the unit that it was surely meant in, the likeliest of them; the number itself where there is none.
+   pure real(dp) function surely_meant(key, number)
+      type(key_t), intent(in) :: key
+      !> Finite number
+      real(dp), intent(in) :: number
+      integer :: i
+
+      surely_meant = number
+      do i = size(mistakes), 1, -1
+         if (fits(mistakes(i), key, number)) surely_meant = meant(mistakes(i), number)
+      end do
+   end function surely_meant
 
    !> What an angular acceleration [rad/s2] would be that was meant in another unit.
    pure function acceleration_meant(number) result(words)

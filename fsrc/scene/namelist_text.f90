@@ -1,18 +1,23 @@
 !> Takes namelist text apart into assignments, each with its line, and reports every fault of the text.
 !>
 !> The runtime's own namelist reader stops at the first fault, takes a wrong value in the last group for
-!> the end of the file, and accepts misspelt groups and repeated keys without a word; hence this one.
+!> the end of the file, and accepts misspelt groups and repeated keys without a word; hence this one. It reads
+!> what the standard has, but for what input/README.md lists.
 module namelist_text
    use errors, only: fault_list_t
-   use namelist_scanner, only: new_scanner, scanner_t, value_t
-   use text, only: integer_text, lower
+   use key_table, only: resembles_group
+   use namelist_scanner, only: new_scanner, scanner_t, subscript_t, value_t
+   use text, only: integer_text, is_word_character, lower
    implicit none(type, external)
    private
 
    !> The group that may stand several times: each is a gear pair of its own.
    character(*), parameter, public :: repeated_group = 'gear'
 
-   !> key = values, or key(index) = values.
+   !> Elements that a key may have.
+   integer, parameter, public :: most_elements = 1000000
+
+   !> key = values, or key(subscripts) = values.
    type, public :: assignment_t
       character(:), allocatable :: group
       !> Which of the groups of this name it stands in, from 1
@@ -23,14 +28,21 @@ module namelist_text
       logical :: sound = .true.
       !> Line of the key
       integer :: line = 0
-      !> First element that is set; 0: no index was given
-      integer :: first_element = 0
-      !> Whether the index was (:, first_element): a column of a table
-      logical :: whole_column = .false.
+      !> Subscripts behind the key, none where it stands alone, and how they stand there
+      type(subscript_t), allocatable :: subscripts(:)
+      character(:), allocatable :: subscript_text
+      !> Its values, each as often as its repeat count says
       type(value_t), allocatable :: values(:)
       !> Whether a comma stands among them
       logical :: has_comma = .false.
    end type assignment_t
+
+   !> Closes a group of old compilers: &end or $end
+   character(*), parameter :: group_end = 'end'
+   character(*), parameter :: outside_a_group = 'text outside a group; a group starts with &name and ends with /'
+   character(*), parameter :: no_semicolon = 'a semicolon separates values only in the mode decimal=''comma''; '// &
+                              'here decimals have a point, and commas separate values'
+   character(*), parameter :: word_letters = 'abcdefghijklmnopqrstuvwxyz0123456789_'
 
    public :: scan_namelists
 
@@ -50,17 +62,17 @@ contains
       type(fault_list_t), intent(inout) :: faults
       type(scanner_t) :: scanner
       character(:), allocatable :: group, text
-      integer :: i, stray_line, used, earlier
+      integer :: i, before, first_stray, stray_line, used, earlier
       logical :: sound
 
       allocate (assignments(64))
       used = 0
-      if (len_trim(content) == 0) then
+      text = with_line_feeds(content)
+      if (len_trim(text) == 0) then
          assignments = assignments(:0)
          call faults%add(file, 0, '', '', 'the file is empty; a scene needs at least its required groups')
          return
       end if
-      text = with_line_feeds(content)
       call check_characters(text, file, first_line, faults, sound)
       if (.not. sound) then
          assignments = assignments(:0)
@@ -68,16 +80,20 @@ contains
       end if
 
       scanner = new_scanner(text, first_line)
+      before = faults%count()
+      first_stray = 0
       stray_line = -2
       do
          call scanner%skip_blanks()
          if (scanner%ended()) exit
-         if (scanner%letter() /= '&') then
+         group = lower(scanner%word_ahead())
+         if (scanner%letter() /= '&' .and. .not. (scanner%letter() == '$' .and. len(group) > 0)) then
+            if (first_stray == 0) first_stray = scanner%line
             ! Lines that follow each other are one fault, not one each.
-            if (scanner%line > stray_line + 1) call faults%add(file, scanner%line, '', '', &
-                                                               'text outside a group; a group starts with &name and ends with /')
-            stray_line = scanner%line
-            call scanner%skip_stray()
+            i = scanner%line
+            if (.not. is_misplaced(scanner%take_stray(resembles_group))) cycle
+            if (i > stray_line + 1) call faults%add(file, i, '', '', outside_a_group)
+            stray_line = i
             cycle
          end if
          call scanner%step()
@@ -88,6 +104,7 @@ contains
             call scanner%skip_line()
             cycle
          end if
+         if (group == group_end) cycle
          earlier = 0
          do i = 1, used
             if (len(assignments(i)%key) > 0 .or. assignments(i)%group /= group) cycle
@@ -100,7 +117,42 @@ contains
          call scan_group(scanner, file, group, earlier + 1, assignments, used, faults)
       end do
       assignments = assignments(:used)
+      if (used == 0 .and. first_stray > 0 .and. faults%count() == before) &
+         call faults%add(file, first_stray, '', '', outside_a_group)
    end subroutine scan_namelists
+
+   !> Whether text outside of groups, which is passed over, looks as if it belonged into one: an assignment, or a group without its
+   !> sign.
+   pure logical function is_misplaced(line)
+      !> Up to its end, or to the group behind it
+      character(*), intent(in) :: line
+      character(:), allocatable :: behind
+      integer :: first, last
+
+      ! Another sign may stand where the & should.
+      first = merge(1, 2, is_word_character(line(1:1)))
+      first = first + verify(line(first:)//'.', ' '//achar(9)) - 1
+      last = first
+      do while (last <= len(line))
+         if (.not. is_word_character(line(last:last))) exit
+         last = last + 1
+      end do
+      behind = adjustl(line(last:))//' '
+      is_misplaced = last > first .and. is_set(behind)
+      if (is_misplaced .or. last == first .or. .not. resembles_group(line(first:last - 1))) return
+      is_misplaced = behind == '' .or. scan(behind(1:1), '!/,') == 1
+      if (.not. is_misplaced) is_misplaced = is_set(adjustl(behind(verify(lower(behind)//'.', word_letters):)))
+   end function is_misplaced
+
+   !> Whether an equals sign stands here, or subscripts and an equals sign.
+   pure logical function is_set(text)
+      character(*), intent(in) :: text
+      character(:), allocatable :: rest
+
+      rest = text//'  '
+      if (rest(1:1) == '(') rest = adjustl(rest(index(rest, ')') + 1:))//'  '
+      is_set = rest(1:1) == '=' .and. rest(2:2) /= '='
+   end function is_set
 
    !> Assignments of one group, up to its slash.
    subroutine scan_group(scanner, file, group, occurrence, assignments, used, faults)
@@ -112,11 +164,12 @@ contains
       integer, intent(inout) :: used
       type(fault_list_t), intent(inout) :: faults
       type(assignment_t) :: assignment
-      integer :: first_line
+      integer :: first_line, i
 
       first_line = scanner%line
       assignment%group = group
       assignment%key = ''
+      assignment%subscript_text = ''
       assignment%line = first_line
       call append(assignment)
       do
@@ -125,8 +178,14 @@ contains
             call scanner%step()
             cycle
          end if
-         if (scanner%at_new_group()) then
-            call faults%add(file, first_line, group, '', 'this group is not closed by a /')
+         if (scanner%at_sign()) then
+            if (lower(scanner%word_ahead()) /= group_end) then
+               call faults%add(file, first_line, group, '', 'this group is not closed by a /')
+               return
+            end if
+            do i = 0, len(group_end)
+               call scanner%step()
+            end do
             return
          end if
          if (scanner%letter() == '/') then
@@ -162,34 +221,38 @@ contains
       character(*), intent(in) :: group
       type(assignment_t), intent(out) :: assignment
       type(fault_list_t), intent(inout) :: faults
+      logical :: sound, closed
 
       assignment%sound = .false.
       assignment%group = group
       assignment%line = scanner%line
+      allocate (assignment%subscripts(0))
+      assignment%subscript_text = ''
       assignment%key = lower(scanner%take_word())
       if (len(assignment%key) == 0) then
          call faults%add(file, scanner%line, group, '', &
                          "unexpected '"//scanner%letter()//"'; a key must stand here, as in key = value")
-         call scanner%skip_line()
+         call scanner%step()
+         call scanner%skip_fault()
          return
       end if
       call scanner%skip_blanks()
+      sound = .true.
+      closed = .true.
       if (scanner%letter() == '(') then
-         call scanner%take_index(assignment%first_element, assignment%whole_column)
-         if (assignment%first_element < 1) then
-            call faults%add(file, scanner%line, group, assignment%key, 'the index in parentheses must be one positive integer')
-            call scanner%skip_line()
-            return
-         end if
-         call scanner%skip_blanks()
+         call scanner%take_subscripts(assignment%subscripts, assignment%subscript_text, sound, closed)
+         if (.not. sound) call faults%add(file, assignment%line, group, assignment%key, 'the index in parentheses must be '// &
+                                          'a positive integer or a section such as (1:2), (2:) or (1:5:2)')
+         if (closed) call scanner%skip_blanks()
       end if
-      if (scanner%letter() /= '=') then
-         call faults%add(file, assignment%line, group, assignment%key, 'an equals sign must follow the key')
-         if (scanner%line == assignment%line) call scanner%skip_line()
+      if (.not. closed .or. scanner%letter() /= '=') then
+         if (sound) call faults%add(file, assignment%line, group, assignment%key, 'an equals sign must follow the key')
+         if (scanner%line == assignment%line .or. .not. closed) call scanner%skip_fault()
          return
       end if
       call scanner%step()
       call scan_values(scanner, file, assignment, faults)
+      assignment%sound = assignment%sound .and. sound
    end subroutine scan_assignment
 
    !> Values up to the next key, slash or group.
@@ -199,7 +262,8 @@ contains
       type(assignment_t), intent(inout) :: assignment
       type(fault_list_t), intent(inout) :: faults
       type(value_t), allocatable :: values(:), grown(:)
-      integer :: used
+      type(value_t) :: value
+      integer :: used, repeats
       logical :: comma_before, sound, closed
 
       allocate (values(8))
@@ -208,47 +272,70 @@ contains
       comma_before = .true.
       do
          call scanner%skip_blanks()
-         if (scanner%at_new_group()) exit
-         if (scanner%letter() == '/') exit
-         if (scanner%letter() == ',') then
-            if (comma_before) then
-               call faults%add(file, scanner%line, assignment%group, assignment%key, 'a value is missing before the comma')
-               sound = .false.
-            end if
+         if (scanner%at_sign() .or. scanner%letter() == '/') exit
+         if (scanner%letter() == ',' .or. scanner%letter() == ';') then
+            if (scanner%letter() == ';' .and. sound) call refuse(no_semicolon)
+            ! Nothing between two commas is a null value.
+            if (comma_before) call append(value_t(), 1)
             comma_before = .true.
             assignment%has_comma = .true.
             call scanner%step()
             cycle
          end if
          if (scanner%key_follows()) exit
-         if (used == size(values)) then
-            allocate (grown(2*used))
-            grown(:used) = values
-            call move_alloc(grown, values)
-         end if
-         used = used + 1
-         call scanner%take_value(values(used), closed)
+         call scanner%take_value(value, repeats, closed)
          if (.not. closed) then
-            call faults%add(file, assignment%line, assignment%group, assignment%key, 'the closing quote is missing')
+            call refuse('the closing quote is missing')
             return
          end if
+         call append(value, repeats)
          comma_before = .false.
       end do
       assignment%values = values(:used)
-      if (used == 0 .and. sound) then
-         call faults%add(file, assignment%line, assignment%group, assignment%key, &
-                         'a value is missing after the equals sign')
-         sound = .false.
-      end if
+      if (used == 0 .and. sound) call refuse('a value is missing after the equals sign')
       assignment%sound = sound
+
+   contains
+
+      !> Put a value behind the others so often.
+      subroutine append(value, repeats)
+         type(value_t), intent(in) :: value
+         integer, intent(in) :: repeats
+         integer :: i
+
+         if (.not. sound) return
+         if (repeats < 1) then
+            call refuse('the repeat count before a * must be a positive integer')
+         else if (repeats > most_elements - used) then
+            call refuse('at most '//integer_text(most_elements)//' values are allowed')
+         end if
+         if (.not. sound) return
+         if (used + repeats > size(values)) then
+            allocate (grown(2*(used + repeats)))
+            grown(:used) = values(:used)
+            call move_alloc(grown, values)
+         end if
+         do i = used + 1, used + repeats
+            values(i) = value
+         end do
+         used = used + repeats
+      end subroutine append
+
+      subroutine refuse(message)
+         character(*), intent(in) :: message
+
+         sound = .false.
+         call faults%add(file, assignment%line, assignment%group, assignment%key, message)
+      end subroutine refuse
+
    end subroutine scan_values
 
    !> Text whose lines all end with a line feed, as they do on Unix: those of Windows end with one behind a carriage return,
-   !> those of old Macs with a carriage return alone.
+   !> those of old Macs with a carriage return alone. The page feed of a printer and the end of a file of DOS become blanks.
    pure function with_line_feeds(content) result(text)
       character(*), intent(in) :: content
       character(:), allocatable :: text
-      character(*), parameter :: carriage_return = achar(13), line_feed = achar(10)
+      character(*), parameter :: carriage_return = achar(13), line_feed = achar(10), form_feed = achar(12), end_of_file = achar(26)
       integer :: i, used
 
       text = content
@@ -258,7 +345,9 @@ contains
             if (content(i - 1:i - 1) == carriage_return) cycle
          end if
          used = used + 1
-         text(used:used) = merge(line_feed, content(i:i), content(i:i) == carriage_return)
+         text(used:used) = content(i:i)
+         if (content(i:i) == carriage_return) text(used:used) = line_feed
+         if (content(i:i) == form_feed .or. content(i:i) == end_of_file) text(used:used) = ' '
       end do
       text = text(:used)
    end function with_line_feeds

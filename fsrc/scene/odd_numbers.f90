@@ -6,9 +6,9 @@ module odd_numbers
    use input_key, only: real_kind, reals_kind
    use key_table, only: find_key, find_swept_key, keys
    use kinds, only: dp
-   use mistaken_units, only: acceleration_meant, is_odd, meant_behind, odd_words, speed_meant
+   use mistaken_units, only: acceleration_meant, is_odd, meant_behind, mistaken_words, odd_words, speed_meant, surely_meant
    use scene_input, only: scene_input_t
-   use scene_types, only: shaft_t
+   use scene_types, only: mistaken_number_t, shaft_t
    use text, only: integer_text, real_text, short_text
    use word_list, only: split_words, word_t
    implicit none(type, external)
@@ -18,7 +18,7 @@ module odd_numbers
    !> 25 % of the speed at order 2
    real(dp), parameter, public :: largest_swing = 0.5_dp
 
-   public :: odd_numbers_of_input, odd_numbers_of_list, odd_swings
+   public :: odd_numbers_of_input, odd_numbers_of_list, odd_swings, mistaken_numbers
 
 contains
 
@@ -42,6 +42,32 @@ contains
       if (task == 'sweep' .or. task == 'threshold') call add_ends(input, task, lines)
       if (task == 'campaign' .or. task == 'threshold') call add_campaign(input, lines)
    end function odd_numbers_of_input
+
+   !> Numbers of an input that were surely meant in another unit.
+   pure function mistaken_numbers(input) result(mistaken)
+      !> Typed values without a fault
+      type(scene_input_t), intent(in) :: input
+      type(mistaken_number_t), allocatable :: mistaken(:)
+      integer :: positions(size(keys)), count, i
+
+      count = 0
+      do i = 1, size(keys)
+         if (.not. input%entries(i)%given .or. keys(i)%kind /= real_kind) cycle
+         if (len(mistaken_words(keys(i), input%entries(i)%number)) == 0) cycle
+         count = count + 1
+         positions(count) = i
+      end do
+      allocate (mistaken(count))
+      do i = 1, count
+         associate (entry => input%entries(positions(i)), key => keys(positions(i)))
+            mistaken(i)%source = entry%file
+            mistaken(i)%line = entry%line
+            mistaken(i)%key = positions(i)
+            mistaken(i)%meant = surely_meant(key, entry%number)
+            mistaken(i)%sentence = mistaken_words(key, entry%number)
+         end associate
+      end do
+   end function mistaken_numbers
 
    !> Both ends of a sweep, or of the range of a threshold. A name that is no key is reported elsewhere.
    pure subroutine add_ends(input, task, lines)

@@ -6,7 +6,7 @@ module scene_checker
    use key_table, only: find_key, find_swept_key, key_name, keys
    use keys_in_use, only: in_use, reason_unused
    use kinds, only: dp
-   use mistaken_units, only: meant_behind
+   use mistaken_units, only: meant_behind, mistaken_words
    use memory, only: expect_memory
    use quantities, only: a_count, a_number, quantity_code, quantity_table
    use scene_input, only: scene_input_t
@@ -146,9 +146,32 @@ contains
       allocate (broken, source=broken_rules(scene))
       do i = 1, size(broken)
          if (.not. is_clear(input, broken(i)%keys)) cycle
-         call input%refuse(broken(i)%keys(:index(broken(i)%keys, ' ') - 1), trim(broken(i)%sentence))
+         if (.not. has_mistaken_unit(input, broken(i)%keys)) &
+            call input%refuse(broken(i)%keys(:index(broken(i)%keys, ' ') - 1), trim(broken(i)%sentence))
       end do
    end subroutine check_rules
+
+   !> Whether a number of a rule was surely meant in another unit: then that is what is wrong, not the rule, and it is refused.
+   logical function has_mistaken_unit(input, names)
+      type(scene_input_t), intent(inout) :: input
+      !> Keys of the rule as group.name, with blanks between
+      character(*), intent(in) :: names
+      type(word_t), allocatable :: words(:)
+      character(:), allocatable :: sentence
+      integer :: i, position
+
+      has_mistaken_unit = .false.
+      allocate (words, source=split_words(names))
+      do i = 1, size(words)
+         position = find_key(words(i)%text)
+         if (keys(position)%kind /= real_kind .or. .not. input%entries(position)%given) cycle
+         sentence = mistaken_words(keys(position), input%entries(position)%number)
+         if (len(sentence) == 0) cycle
+         has_mistaken_unit = .true.
+         if (.not. input%entries(position)%faulty) call input%refuse(words(i)%text, sentence)
+         input%entries(position)%faulty = .true.
+      end do
+   end function has_mistaken_unit
 
    !> Whether all keys of a rule have a value that could be read.
    pure logical function is_clear(input, names)
@@ -426,11 +449,11 @@ contains
             message = 'not allowed for '//key//'; allowed: '//allowed_text(keys(position))// &
                       ', and above zero where the spacing is logarithmic'
          else if (.not. is_computable(keys(position), ends(i))) then
-            message = not_computable_text(keys(position), ends(i))//meant_behind(keys(position), ends(i))
+            message = not_computable_text(keys(position), ends(i))
          else
             cycle
          end if
-         call input%refuse('sweep.'//merge('first', 'last ', i == 1), message)
+         call input%refuse('sweep.'//merge('first', 'last ', i == 1), message//meant_behind(keys(position), ends(i)))
          return
       end do
       if (.not. abs(ends(2) - ends(1)) > 0.0_dp) call input%refuse('sweep.last', 'it must differ from first')
@@ -443,8 +466,10 @@ contains
          if (allocated(broken)) deallocate (broken)
          allocate (broken, source=broken_rules(swept))
          do j = 1, size(broken)
-            if (index(broken(j)%keys, key_name(position)//' ') > 0 .and. is_clear(input, broken(j)%keys)) &
-               call input%refuse('sweep.'//merge('first', 'last ', i == 1), trim(broken(j)%sentence))
+            if (index(broken(j)%keys, key_name(position)//' ') == 0 .or. .not. is_clear(input, broken(j)%keys)) cycle
+            message = mistaken_words(keys(position), ends(i))
+            if (len(message) == 0) message = trim(broken(j)%sentence)
+            call input%refuse('sweep.'//merge('first', 'last ', i == 1), message)
          end do
       end do
    end subroutine check_sweep

@@ -2,7 +2,7 @@
 module scene_input
    use errors, only: fault_list_t
    use file_system, only: lies_inside
-   use input_entry, only: continues_list, entry_t, new_entry, set_entry
+   use input_entry, only: close_list, entry_t, new_entry, set_entry
    use input_key, only: integer_kind, key_t, real_kind
    use key_table, only: find_key, keys, known_group, nearest_group, nearest_key
    use kinds, only: dp
@@ -27,6 +27,7 @@ module scene_input
       type(fault_list_t) :: faults
    contains
       procedure :: set_all
+      procedure :: close_lists
       procedure :: put_numbers
       procedure :: put_laws
       procedure :: choose_defaults
@@ -104,16 +105,20 @@ contains
                                                           'unknown key; '//nearest_key(assignment%group, assignment%key))
                cycle
             end if
-            if (self%entries(position)%given .and. .not. overriding .and. &
-                .not. continues_list(keys(position), assignment, self%entries(position))) then
-               call self%faults%add(file, assignment%line, assignment%group, assignment%key, &
-                                    'this key is set in line '//integer_text(self%entries(position)%line)//' already')
-               cycle
-            end if
-            call set_entry(keys(position), assignment, self%entries(position), file, self%faults)
+            call set_entry(keys(position), assignment, overriding, self%entries(position), file, self%faults)
          end associate
       end do
    end subroutine set_all
+
+   !> Put the lists together, once all their elements are known.
+   subroutine close_lists(self)
+      class(scene_input_t), intent(inout) :: self
+      integer :: i
+
+      do i = 1, size(keys)
+         call close_list(keys(i), self%entries(i), self%faults)
+      end do
+   end subroutine close_lists
 
    !> Put all numbers that have a value into a scene.
    pure subroutine put_numbers(self, scene)

@@ -1,7 +1,7 @@
 !> From the text of an input to a scene: values are typed by the key table, checked together, and put
 !> into the types group by group if there was no fault. All faults of an input are reported at once.
 module scene_reader
-   use errors, only: fault_list_t, last_error, not_permitted
+   use errors, only: error_t, error_words, exit_system, fault_list_t, is_shortage, last_error, not_permitted, raise
    use file_system, only: read_whole_file
    use input_entry, only: numbers_text, place_of, value_text
    use input_key, only: name_limit, table_kind
@@ -9,7 +9,7 @@ module scene_reader
    use keys_in_use, only: in_use
    use kinds, only: dp
    use namelist_text, only: assignment_t, repeated_group, scan_namelists
-   use odd_numbers, only: odd_numbers_of_input, odd_swings
+   use odd_numbers, only: mistaken_numbers, odd_numbers_of_input, odd_swings
    use scene_checker, only: check_together
    use scene_input, only: new_scene_input, scene_input_t
    use scene_types, only: forced_orders, model_resolved, output_t, scene_t, task_campaign, task_motion, &
@@ -33,6 +33,8 @@ module scene_reader
       character(:), allocatable :: source
       !> As namelist text
       character(:), allocatable :: text
+      !> Which of several gear pairs it is for; 0: all
+      integer :: pair = 0
    end type override_t
 
    public :: read_scenes
@@ -52,6 +54,7 @@ contains
       type(fault_list_t), intent(inout) :: faults
       type(assignment_t), allocatable :: assignments(:)
       type(scene_input_t), allocatable :: inputs(:)
+      type(error_t), allocatable :: error
       character(:), allocatable :: content, file
       integer :: stat, before, i
       logical :: is_input
@@ -65,6 +68,9 @@ contains
       case (1)
          if (last_error() == not_permitted) then
             call faults%add(file, 0, '', '', 'it may not be read')
+         else if (is_shortage(last_error())) then
+            call raise(error, exit_system, 'it cannot be opened: '//error_words(last_error()))
+            call faults%add_error(file, '', '', error)
          else
             call faults%add(file, 0, '', '', 'there is no such file')
          end if
@@ -79,6 +85,10 @@ contains
       ! What holds no group at all is no input; a list of all that it lacks would help nobody.
       is_input = size(assignments) > 0 .or. faults%count() == before
       call begin_inputs(assignments, file, inputs)
+      do i = 1, size(overrides)
+         if (overrides(i)%pair > size(inputs)) call faults%add( &
+            overrides(i)%source, 0, '', '', 'there is no gear pair of this number; the input has '//integer_text(size(inputs)))
+      end do
       deallocate (scenes)
       allocate (scenes(size(inputs)))
       do i = 1, size(inputs)
@@ -135,6 +145,7 @@ contains
 
       call input%set_all(assignments, file, .false.)
       do i = 1, size(overrides)
+         if (all(overrides(i)%pair /= [0, input%pair])) cycle
          call scan_namelists(overrides(i)%text, overrides(i)%source, 0, set, input%faults)
          ! The group itself counts as one; a value that goes on with keys or groups of its own sets more.
          if (size(set) > 2) then
@@ -143,6 +154,7 @@ contains
          end if
          call input%set_all(set, overrides(i)%source, .true.)
       end do
+      call input%close_lists()
    end subroutine set_all_keys
 
    !> Put the values of an input without a fault into its scene, which has its names already.
@@ -164,6 +176,7 @@ contains
       scene%output = read_output(input)
       scene%lines = input%entries%line
       scene%resolved_input = resolved_text(input, trim(scene%name))//input%found
+      scene%mistaken = mistaken_numbers(input)
       scene%warnings = [scene%warnings, odd_numbers_of_input(input), odd_swings(input, scene%shaft), &
                         published_film_of_gear(input)]
    end subroutine put_values
@@ -347,6 +360,7 @@ contains
             body = body//'   name = '//quoted(name)//new_line('a')
          else if (keys(i)%kind == table_kind) then
             do column = 1, size(input%entries(i)%columns)
+               if (size(input%entries(i)%columns(column)%numbers) == 0) cycle
                body = body//'   '//trim(keys(i)%name)//'(:, '//integer_text(column)//') = '// &
                       numbers_text(input%entries(i)%columns(column)%numbers)//new_line('a')
             end do

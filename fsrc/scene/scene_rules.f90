@@ -42,7 +42,7 @@ contains
          holds(4) = solver%periods >= spectrum%periods
          ! Not by integer_text: threads come here, and gfortran keeps the length of a text that a function allocates for all of
          ! them.
-         if (.not. holds(4)) write (rules(4)%sentence, '(a, i0, a)') 'at least &spectrum periods (', spectrum%periods, &
+         if (.not. holds(4)) write (rules(4)%sentence, '(ss, a, i0, a)') 'at least &spectrum periods (', spectrum%periods, &
             ') must be solved'
          rules(5) = rule_t('oil.viscosity_100_cst oil.viscosity_40_cst', 'at 100 degC an oil is thinner than at 40 degC')
          holds(5) = .not. scene%oil%given .or. scene%oil%viscosity_100_cst < scene%oil%viscosity_40_cst
@@ -90,7 +90,7 @@ contains
                                      'are no plane contact')]
          else if (scene%film%law == law_elastohydrodynamic .and. contact%flattening_included &
                   .and. contact%stiffness*flattening > 1.0_dp) then
-            write (sentence, '(2(a, es10.3), a)') 'the flanks alone have', 1.0_dp/flattening, ' N/m, less than the', &
+            write (sentence, '(ss, 2(a, es10.3), a)') 'the flanks alone have', 1.0_dp/flattening, ' N/m, less than the', &
                contact%stiffness, ' N/m with them; or set flattening_included = .false.'
             broken = [broken, rule_t(keys, sentence)]
          end if

@@ -32,8 +32,8 @@ contains
       case (status_steady)
          sentence = 'The motion repeats; the remaining periods were not needed.'
       case (status_not_converged)
-         sentence = 'No step, short as it was or often as it was iterated, met the accuracy; for newmark more steps help, '// &
-                    'or newton.'
+         sentence = 'No step, short as it was or often as it was iterated, met the accuracy, or too many of them would be '// &
+                    'needed; for newmark more steps help, or newton.'
       case (status_film_lost)
          sentence = 'The film would reach zero however short the step; more steps_per_period help.'
       case (status_no_rigid_film)

@@ -142,6 +142,39 @@ module scene_types
       real(dp) :: churning = 0.0_dp
    end type drag_t
 
+   !> A number of the input that was surely meant in another unit
+   type, public :: mistaken_number_t
+      !> Where it stands: file or option, and line
+      character(:), allocatable :: source
+      integer :: line = 0
+      !> Its key, by its position in the key table, and what it would be in the unit of the key
+      integer :: key = 0
+      real(dp) :: meant = 0.0_dp
+      !> Why it is odd
+      character(:), allocatable :: sentence
+   end type mistaken_number_t
+
+   !> The teeth of a gear pair, derived; first that of gear 1, where both have their own
+   type, public :: teeth_t
+      !> Whether the tips are those of the input; else they are as high as usual
+      logical :: tips_given = .false.
+      !> Sum of the profile shifts; both, and the addendum of the rack before tips are shortened, if that is one for both [m_n]
+      real(dp) :: shift_sum = 0.0_dp
+      real(dp) :: shifts(2) = 0.0_dp
+      real(dp) :: addendum = 0.0_dp
+      !> Normal thickness of the tips, below 0 where teeth are pointed, and by how much shifts are too small for no undercut [m_n]
+      real(dp) :: tip_thickness(2) = 0.0_dp
+      real(dp) :: undercut(2) = 0.0_dp
+      !> How far from where the line of action touches the base circles the tips cross it [m]
+      real(dp) :: reach(2) = 0.0_dp
+      !> Whether tips as high as usual would be pointed, or beyond the line of action, and end there
+      logical :: is_cut_short = .false.
+      !> Contact ratios eps_alpha and eps_beta, and the largest eps_alpha that any teeth have at this centre distance
+      real(dp) :: contact_ratio = 0.0_dp
+      real(dp) :: overlap_ratio = 0.0_dp
+      real(dp) :: largest_ratio = 0.0_dp
+   end type teeth_t
+
    !> &gear: a loose gear and the gear that drives it, of which the contact follows
    type, public :: gear_t
       logical :: given = .false.
@@ -404,8 +437,9 @@ module scene_types
       type(gear_t) :: gear
       !> All pairs of a campaign over several, of which the gear is one
       type(gear_t), allocatable :: pairs(:)
-      !> Drag torque on the loose gear, derived
+      !> Drag torque on the loose gear, and the teeth of the pair, derived
       type(drag_t) :: drag
+      type(teeth_t) :: teeth
       type(shaft_t) :: shaft
       type(oil_t) :: oil
       type(film_choice_t) :: film
@@ -418,6 +452,8 @@ module scene_types
       type(output_t) :: output
       !> What was made of a signal, and what is allowed but hardly meant, a line each
       type(word_t), allocatable :: warnings(:)
+      !> Numbers in a unit that is surely not theirs
+      type(mistaken_number_t), allocatable :: mistaken(:)
       !> Line in which each key of the table was set; 0: it was not, or on the command line
       integer, allocatable :: lines(:)
       !> All keys with their resolved values as namelist text, without places on this machine

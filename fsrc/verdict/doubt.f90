@@ -109,7 +109,7 @@ contains
          case (doubt_film)
             sentence = 'Solved tighter, the film differs by '//short_text(100.0_dp*numbers(1), 2)//' %.'
          case (doubt_largest_harmonic)
-            sentence = 'The largest harmonic at a harmonic of the force is as small as its error.'
+            sentence = 'Of the harmonics that the force has, the largest is as small as its error.'
             if (counts(1) == 1) sentence = 'The first harmonic is as small as its error.'
          case (doubt_distortion)
             sentence = 'The harmonic distortion is within its error of the quiet limit.'

@@ -172,7 +172,7 @@ contains
       !> Code of a limit
       integer, intent(in) :: limit
       character(:), allocatable :: sentence
-      character(*), parameter :: wide = 'the film grows beyond a tenth of the radius, where the parabolic gap of a harmonic '// &
+      character(*), parameter :: wide = 'the film grows beyond a tenth of the radius, where the parabolic gap of a line '// &
                                          'contact ends'
       character(*), parameter :: narrow = 'the film falls below 1 nm, where no oil film is left'
 

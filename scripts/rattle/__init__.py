@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from rattle.campaign_result import Campaign, read_campaign
-from rattle.faults import Fault, InputError, RunError
+from rattle.faults import Fault, InputError, InputWarning, RunError
 from rattle.result import Result, ResultError, read
 from rattle.solve import Gearbox, Range, SceneFailed, Solved, campaign, run, sweep, threshold
 from rattle.summary import SummaryError, read_summary
@@ -14,7 +14,7 @@ _VERSION = Path(__file__).parent / "VERSION"
 
 def __getattr__(name: str) -> str:
     """Read the version when it is asked for: scripts work without it where their folder alone was copied."""
-    if name != "version":
+    if name not in ("version", "__version__"):
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     try:
         return _VERSION.read_text().strip()
@@ -25,10 +25,12 @@ def __getattr__(name: str) -> str:
 
 
 __all__ = [
+    "__version__",
     "Campaign",
     "Fault",
     "Gearbox",
     "InputError",
+    "InputWarning",
     "Range",
     "Result",
     "ResultError",

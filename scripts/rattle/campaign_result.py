@@ -167,7 +167,7 @@ class Campaign(ResultFile):
         values[self.places] = self[name][self.done]
         return values
 
-    def frame(self) -> pandas.DataFrame:
+    def to_dataframe(self) -> pandas.DataFrame:
         """The scenes that are done as a pandas DataFrame; codes also as words, in columns NAME_word."""
         import pandas
 
@@ -190,7 +190,7 @@ class Campaign(ResultFile):
         }
         return table
 
-    def dataset(self) -> xarray.Dataset:
+    def to_xarray(self) -> xarray.Dataset:
         """An xarray Dataset over the axes of the grid, or over the scenes if the campaign is no grid.
 
         Codes carry flag_values and flag_meanings.
@@ -225,6 +225,8 @@ class Campaign(ResultFile):
             "resolved_input": self.input_text,
         }
         return xarray.Dataset(variables, coordinates, of_campaign)
+
+    frame, dataset = to_dataframe, to_xarray
 
     def _axis(self, key: str, planned: PlannedAxis | None) -> Axis:
         values = np.unique(self[key][self.done])

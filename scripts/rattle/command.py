@@ -9,9 +9,11 @@ import math
 import os
 import signal
 import sys
+import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from rattle.faults import InputWarning
 from rattle.result import Result, ResultError
 from rattle.result_file import ResultFile
 from rattle.summary import SummaryError, read_summary
@@ -33,7 +35,12 @@ def run(main: Callable[[], int | None]) -> None:
     # What a script must tidy up is tidied up also when a batch system or another program ends it.
     signal.signal(signal.SIGTERM, _leave)
     try:
-        code = main() or COMPLETE
+        with warnings.catch_warnings():
+            # What is odd about an input is for the user, whatever is set; warnings of libraries are not.
+            warnings.simplefilter("ignore")
+            warnings.simplefilter("default", InputWarning)
+            warnings.showwarning = lambda words, *_, **__: note(str(words))
+            code = main() or COMPLETE
         sys.stdout.flush()
     except (CommandError, ResultError, SummaryError) as fault:
         code = complain(str(fault))

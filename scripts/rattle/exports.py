@@ -48,7 +48,7 @@ def arrow_table(campaign: Campaign) -> pyarrow.Table:
     """The frame with the units in the metadata of its fields and the resolved input in that of the table."""
     import pyarrow
 
-    plain = campaign.frame()
+    plain = campaign.to_dataframe()
     plain.attrs = {}
     table = pyarrow.Table.from_pandas(plain, preserve_index=False)
     fields = [
@@ -68,12 +68,12 @@ def arrow_table(campaign: Campaign) -> pyarrow.Table:
 
 def write_netcdf(campaign: Campaign, path: Path) -> None:
     """A NetCDF-4 file over the varied keys of a grid, or over the scene; not a number where not done."""
-    _write_dataset(campaign.dataset(), path)
+    _write_dataset(campaign.to_xarray(), path)
 
 
 def write_series(result: Result, path: Path, names: Sequence[str], stride: int) -> None:
     """A NetCDF-4 file over time, or over the rows; the extreme rows stand where their times are."""
-    data = result.dataset()
+    data = result.to_xarray()
     along = next(iter(data.sizes))
     kept = [name for name in names if name in data.data_vars]
     _write_dataset(data[kept].isel({along: slice(None, None, stride)}), path)

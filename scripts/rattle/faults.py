@@ -1,14 +1,22 @@
-"""What the program says of bad input, as exceptions that carry each fault with its place."""
+"""What the program says of bad or odd input: exceptions and warnings that carry each fault with its place."""
 
 from __future__ import annotations
 
 import re
+import sys
+import warnings
+from collections.abc import Iterable
+from pathlib import Path
 from typing import NamedTuple
+
+_PACKAGE = str(Path(__file__).parent)
 
 # The program writes: FILE:LINE: &group key: sentence. Line, group and key may be missing.
 _FAULT = re.compile(
     r"(?P<file>.+?)(?::(?P<line>\d+))?:(?: &(?P<group>\w+)(?: (?P<key>[^\s:]+))?:)? (?P<message>.*)"
 )
+# As it begins what is odd about a key: &group key = value.
+_ODD_KEY = re.compile(r"&(?P<group>\w+) (?P<key>\w+) = ")
 
 
 class Fault(NamedTuple):
@@ -38,6 +46,25 @@ class RunError(Exception):
 
 class InputError(RunError):
     """Bad input: nothing was run."""
+
+
+class InputWarning(UserWarning):
+    """What is odd about an input that was solved all the same; `fault` has the sentence and its place."""
+
+    def __init__(self, line: str) -> None:
+        super().__init__(line)
+        (fault,) = read_faults(line)
+        named = _ODD_KEY.match(fault.message)
+        self.fault = fault._replace(**named.groupdict()) if named else fault
+
+
+def warn(lines: Iterable[str]) -> None:
+    """Raise the `input_warnings` of summaries, each once, at the line outside this package that called."""
+    level, frame = 1, sys._getframe()
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
+        level, frame = level + 1, frame.f_back
+    for line in dict.fromkeys(lines):
+        warnings.warn(InputWarning(line.removeprefix("warning: ")), stacklevel=level)
 
 
 def read_faults(text: str) -> list[Fault]:

@@ -9,6 +9,14 @@ from pathlib import Path
 
 # Slurm checks time limits about once a minute, so its warning may come up to a minute early, never late.
 CLOCK_GRAIN = 60
+# Time limits: minutes[:seconds], hours:minutes:seconds, days-hours[:minutes[:seconds]].
+TIME = re.compile(r"(?:(?P<days>\d+)-)?(?P<clock>(?<=-)|\d+(?::\d+){0,2})", re.ASCII)
+NO_LIMIT = ("UNLIMITED", "INFINITE", "-1")
+# An amount of memory, in megabytes where no unit stands.
+MEMORY = re.compile(r"\d+(?:[KMGT]B?)?", re.ASCII | re.IGNORECASE)
+MOST_SIGNAL_SECONDS = 65535
+# Tasks of an array beyond which no configuration of Slurm goes.
+MOST_ARRAY_TASKS = 4_000_000
 # What Slurm takes as it stands in an #SBATCH line.
 PLAIN = re.compile(r"[A-Za-z0-9_./%=:@,+-]*")
 
@@ -35,16 +43,18 @@ class Job:
     launcher: str
 
 
-def seconds_of(time: str) -> int:
-    """Seconds of HH:MM:SS or D-HH:MM:SS; ValueError for anything else."""
-    days, _, clock = time.rpartition("-")
-    fields = clock.split(":")
-    if len(fields) != 3 or not all(field.isascii() and field.isdecimal() for field in (*fields, days or "0")):
+def seconds_of(time: str) -> int | None:
+    """Seconds of a time limit as Slurm takes it, None for no limit; ValueError for anything else."""
+    if time.upper() in NO_LIMIT:
+        return None
+    found = TIME.fullmatch(time)
+    if found is None:
         raise ValueError(time)
-    hours, minutes, seconds = map(int, fields)
-    if minutes > 59 or seconds > 59:
-        raise ValueError(time)
-    return 86400 * int(days or 0) + 3600 * hours + 60 * minutes + seconds
+    days, clock = found["days"], [int(part) for part in found["clock"].split(":") if part]
+    if days is None and len(clock) < 3:
+        clock.insert(0, 0)  # without days and hours, minutes come first
+    units = zip((3600, 60, 1), clock, strict=False)
+    return 86400 * int(days or 0) + sum(unit * part for unit, part in units) or None
 
 
 def part_name(name: str, part: int, parts: int) -> str:

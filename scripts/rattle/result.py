@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -26,31 +26,6 @@ MOTIONS_ENDING = ".motions.rattle"
 PROFILES_ENDING = ".profiles.rattle"
 
 
-class Columns(Mapping[str, np.ndarray]):
-    """The columns of a file by name, verified when one of them is first asked for."""
-
-    def __init__(self, names: Sequence[str], rows: CheckedRows, row_count: int) -> None:
-        self._places = {name: place for place, name in enumerate(names)}
-        self._rows = rows
-        self._row_count = row_count
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        place = self._places[name]
-        self._rows.verify()
-        return self._rows.mapped[: self._row_count, place]
-
-    def part(self, name: str, rows: slice) -> np.ndarray:
-        """Some rows of a column; no others are verified."""
-        self._rows.verify(rows)
-        return self._rows.mapped[: self._row_count, self._places[name]][rows]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._places)
-
-    def __len__(self) -> int:
-        return len(self._places)
-
-
 class Result(ResultFile):
     """One result file of a single scene.
 
@@ -59,7 +34,6 @@ class Result(ResultFile):
 
     Attributes
     ----------
-    columns : mapping of column name to array
     row_count : rows that the file holds, without the extreme ones
     coarse : whether the program says that the series is coarser than the motion
     and those of every `ResultFile`
@@ -70,10 +44,20 @@ class Result(ResultFile):
         self.row_count = row_count
         self.coarse = bool(header.seal.coarse)
         self._rows = CheckedRows(path, header, rows, row_count)
-        self.columns = Columns(header.names, self._rows, row_count)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        return self.columns[self.check_column(name)]
+        return self._part(name)
+
+    @property
+    def columns(self) -> Result:
+        """The mapping of column name to array, which is the result itself."""
+        return self
+
+    def _part(self, name: str, rows: slice = slice(None)) -> np.ndarray:
+        """Some rows of a column; no others are verified."""
+        place = self.names.index(self.check_column(name))
+        self._rows.verify(rows)
+        return self._rows.mapped[: self.row_count, place][rows]
 
     @cached_property
     def extremes(self) -> Mapping[str, np.ndarray]:
@@ -102,7 +86,7 @@ class Result(ResultFile):
             return dict(zip(self.names, self.merged(self.names), strict=True))
         return {name: np.array(self[name]) for name in self.names}
 
-    def frame(self) -> pandas.DataFrame:
+    def to_dataframe(self) -> pandas.DataFrame:
         """The table as a pandas DataFrame; codes also as words, in columns NAME_word."""
         import pandas
 
@@ -112,7 +96,7 @@ class Result(ResultFile):
         frame.attrs = {"units": dict(self.units), **self._told}
         return frame
 
-    def dataset(self) -> xarray.Dataset:
+    def to_xarray(self) -> xarray.Dataset:
         """The table as an xarray Dataset over time, or over the rows where there are no times."""
         import xarray
 
@@ -124,6 +108,8 @@ class Result(ResultFile):
         coordinates = {TIME: variables.pop(TIME)} if TIME in self else {}
         return xarray.Dataset(variables, coordinates, self._told)
 
+    frame, dataset = to_dataframe, to_xarray
+
     @property
     def _told(self) -> dict[str, str]:
         return {
@@ -134,7 +120,7 @@ class Result(ResultFile):
 
     def __repr__(self) -> str:
         state = "closed" if self.closed else "not closed"
-        return f"<Result {self.path}: {self.row_count} rows of {', '.join(self.columns)}; {state}>"
+        return f"<Result {self.path}: {self.row_count} rows of {', '.join(self)}; {state}>"
 
     def require_rows(self, task: str) -> None:
         """Raise ResultError if this is the result of another task, or holds nothing to draw."""
@@ -158,8 +144,7 @@ class Result(ResultFile):
 
     def samples(self, name: str, rows: slice = slice(None)) -> np.ndarray:
         """A contiguous copy of some rows of a column, all of them finite."""
-        name = self.check_column(name)
-        values = np.ascontiguousarray(self.columns.part(name, rows), dtype=np.float64)
+        values = np.ascontiguousarray(self._part(name, rows), dtype=np.float64)
         if not np.isfinite(values).all():
             raise ResultError(f"The column '{name}' of {self.path} holds values that are not finite.")
         return values

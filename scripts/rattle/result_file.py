@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+import copyreg
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
 from rattle.checksums import LANES, checksum, checksums
 from rattle.namelist import NamelistError, parse
-from rattle.result_header import SERIES, ResultError, ResultHeader
+from rattle.result_header import SERIES, ColumnError, ResultError, ResultHeader
 
 # Threads that verify chunks, and chunks below which another thread is not worth its start.
 MOST_THREADS = 4
@@ -27,7 +28,37 @@ DERIVED = re.compile(r"^! derived: (\w+)\.(\w+) = ([-+.\dE]+(?:, [-+.\dE]+)*) ?(
 DRAWN = ("motion", "film", "sweep", "campaign", "threshold")
 
 
-class ResultFile:
+def _refuse(*_: object, **__: object) -> NoReturn:
+    raise TypeError("A result cannot be changed; dict(result) is a mapping that can.")
+
+
+class ColumnMapping(Mapping[str, np.ndarray], dict[str, np.ndarray]):
+    """A read-only mapping that computes its values; a dict, but by type alone, since pandas asks for one.
+
+    As a dict it is empty: all methods are those of Mapping.
+    """
+
+    __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refuse
+    __eq__, __ne__, __hash__ = object.__eq__, object.__ne__, object.__hash__
+
+    def __or__(self, other: Mapping[str, Any]) -> dict[str, Any]:
+        return {**self, **other}
+
+    def __ror__(self, other: Mapping[str, Any]) -> dict[str, Any]:
+        return {**other, **self}
+
+    def copy(self) -> dict[str, np.ndarray]:
+        """The columns as a dict of its own."""
+        return dict(self)
+
+    def __reversed__(self) -> Iterator[str]:
+        return reversed(list(self))
+
+    def __reduce_ex__(self, _: object) -> tuple[object, ...]:
+        return copyreg.__newobj__, (type(self),), self.__dict__
+
+
+class ResultFile(ColumnMapping):
     """A result file of any kind: its place, its columns by name, and what its header tells.
 
     Attributes
@@ -51,10 +82,16 @@ class ResultFile:
     def __contains__(self, name: object) -> bool:
         return name in self.units
 
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
+
+    def __len__(self) -> int:
+        return len(self.names)
+
     def check_column(self, name: str) -> str:
         """The name of a column; refuse a name that is no column."""
         if name not in self:
-            raise ResultError(f"{self.path} has no column '{name}'; it holds {', '.join(self.names)}.")
+            raise ColumnError(f"{self.path} has no column '{name}'; it holds {', '.join(self.names)}.")
         return name
 
     @cached_property

@@ -72,6 +72,12 @@ class ResultError(Exception):
     """A result file that cannot be used, explained in one plain sentence."""
 
 
+class ColumnError(ResultError, KeyError):
+    """A column that a result does not have."""
+
+    __str__ = Exception.__str__
+
+
 @dataclass(frozen=True)
 class ChunkTable:
     """Rows in a chunk, rows in all (of a series at most), and the checksum of every chunk."""

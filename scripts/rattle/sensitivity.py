@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import f90nml
 import numpy as np
-from SALib.analyze import sobol as indices
-from SALib.sample import sobol as design
 
-from rattle.campaign_plan import LOGARITHMIC, SAMPLE
+from rattle.campaign_plan import LOGARITHMIC, SAMPLE, TABLE
 from rattle.campaign_result import Campaign
 from rattle.codes import QUANTITIES
 from rattle.command import CommandError
@@ -28,6 +27,8 @@ RECORDED = (
 )
 DIVIDERS = ("csv", "vary", "first", "last", "count", "scale", "values", "sample", "size", "seed")
 CONFIDENCE, RESAMPLES = 0.95, 200
+LEAST_BLOCKS = 2
+BLOCKS = 256  # of a design, where neither --blocks nor campaign.size says how many
 NORMAL = 1.959963984540054  # of the interval of a share
 LEAST_IMPACTS = 2  # verdict from which a pair rattles: impacts on one flank at least
 
@@ -56,8 +57,33 @@ class Study:
     probability: tuple[float, float, float] | None
 
 
-def design_files(path: Path, count: int, seed: int, folder: Path) -> list[tuple[Path, Writer]]:
-    """A design of `count` blocks over the ranges of an input, and an input that reads it."""
+@dataclass(frozen=True)
+class Design:
+    """Saltelli's design: blocks of as many scenes as keys and two more, for each of some gear pairs."""
+
+    blocks: int
+    keys: int
+    pairs: int
+    files: list[tuple[Path, Writer]]
+
+    @property
+    def words(self) -> str:
+        scenes = self.blocks * (self.keys + 2)
+        words = f"{self.blocks} blocks of {self.keys + 2} scenes for {self.keys} keys: {scenes} scenes"
+        return (
+            f"{words} of each of {self.pairs} pairs, {scenes * self.pairs} in all"
+            if self.pairs > 1
+            else words
+        )
+
+
+def new_design(path: Path, blocks: int | None, seed: int | None, folder: Path) -> Design:
+    """A design over the ranges of an input, and an input that reads it.
+
+    `blocks` None: as many as the scenes of `campaign.size` have room for; `seed` None: that of the campaign.
+    """
+    from SALib.sample import sobol as design  # takes seconds to load
+
     try:
         groups = parse_groups(path.read_text(encoding="utf-8"))
     except NamelistError as fault:
@@ -68,6 +94,8 @@ def design_files(path: Path, count: int, seed: int, folder: Path) -> list[tuple[
     bounds = np.array([lows, highs], dtype=float)
     bounds[:, logarithmic] = np.log(bounds[:, logarithmic])
     problem = {"num_vars": len(keys), "names": keys, "bounds": bounds.T.tolist()}
+    count = blocks or _blocks_of(groups["campaign"].get("size"), len(keys), path)
+    seed = seed or groups["campaign"].get("seed", 1)
     points = design.sample(problem, count, calc_second_order=False, seed=seed)
     points[:, logarithmic] = np.exp(points[:, logarithmic])
     lines = [",".join(keys), *(",".join(map(repr, row)) for row in points.tolist()), ""]
@@ -81,10 +109,24 @@ def design_files(path: Path, count: int, seed: int, folder: Path) -> list[tuple[
     scene["name"], scene["task"] = f"{stem}_design", "campaign"
     groups.end_comma = False
     head = f"! Saltelli's design of {count} blocks, seed {seed}, over the ranges of {path.name}.\n\n"
-    return [
+    files = [
         (folder / f"{stem}.design.csv", text_writer("\n".join(lines))),
         (folder / f"{stem}_design.nml", text_writer(head + str(groups) + "\n")),
     ]
+    return Design(count, len(keys), max(1, sum(name == "gear" for name, _ in groups.items())), files)
+
+
+def _blocks_of(size: Any, keys: int, path: Path) -> int:
+    """The largest power of two of blocks that a count of scenes has room for."""
+    if size is None:
+        return BLOCKS
+    blocks = int(size) // (keys + 2) if isinstance(size, int) else 0
+    if blocks < LEAST_BLOCKS:
+        raise CommandError(
+            f"{path}: &campaign size = {size}, which are the scenes, holds no {LEAST_BLOCKS} blocks of "
+            f"{keys + 2}; write size = {LEAST_BLOCKS * (keys + 2)} at least, or give --blocks."
+        )
+    return 1 << (blocks.bit_length() - 1)
 
 
 def _ranges(campaign: f90nml.Namelist, path: Path) -> tuple[list[str], list[float], list[float], np.ndarray]:
@@ -121,12 +163,28 @@ def studies(campaign: Campaign, quantities: Sequence[str]) -> list[Study]:
     return [_study(pair, known) for pair in campaign.pairs]
 
 
+def is_design(campaign: Campaign) -> bool:
+    """Whether a campaign is over a design, of which indices follow."""
+    try:
+        return campaign.kind == TABLE and all(
+            len(_blocks(_points(pair), pair)) > 0 for pair in campaign.pairs
+        )
+    except CommandError:
+        return False
+
+
+def _points(campaign: Campaign) -> np.ndarray:
+    """(scene, varied key)"""
+    return np.column_stack([np.array(campaign[key], dtype=float) for key in campaign.varied])
+
+
 def _study(campaign: Campaign, quantities: Sequence[str]) -> Study:
-    points = np.column_stack([np.array(campaign[key], dtype=float) for key in campaign.varied])
+    from SALib.analyze import sobol as indices
+
     pair = campaign.name.rpartition(".")[2] if campaign.gears else ""
     if campaign.kind == SAMPLE:
         return Study(pair, tuple(campaign.varied), 0, 0, (), (), _probability(campaign, 1))
-    blocks = _blocks(points, campaign)
+    blocks = _blocks(_points(campaign), campaign)
     usable = np.all((campaign.done & ~campaign.failed).reshape(blocks.shape[:2]), axis=1)
     found, constant = [], []
     names = list(campaign.varied)

@@ -8,18 +8,22 @@ import subprocess
 import sys
 import tempfile
 import weakref
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from rattle import solver_process
+from rattle import faults, solver_process
 from rattle.campaign_result import Campaign, read_campaign
 from rattle.faults import InputError, RunError, read_faults
 from rattle.result import Result, read
-from rattle.summary import read_summary
+from rattle.summary import input_warnings, read_summary
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 COMPLETE, SCENE_FAILED, BAD_INPUT = 0, 1, 2
 _HERE = Path(__file__).resolve().parent
@@ -32,7 +36,8 @@ PROGRAMS = (
 
 NO_LISTS = (bytes, bytearray, memoryview, Mapping, set, frozenset)
 
-Input = str | Path | Mapping[str, Mapping[str, Any]]
+Group = Mapping[str, Any]
+Input = str | Path | Mapping[str, Group | Sequence[Group]]
 
 
 class Solved(NamedTuple):
@@ -46,6 +51,19 @@ class Gearbox(dict[str, Solved]):
     """What each gear pair of an input left, by its name; `summary` has the table of all, None for sweeps."""
 
     summary: dict[str, Any] | None = None
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The summaries as a pandas DataFrame, a row for each pair."""
+        import pandas
+
+        frame = pandas.DataFrame.from_dict(
+            {gear: solved.summary for gear, solved in self.items()}, orient="index"
+        )
+        return frame.drop(columns="gear").rename_axis("gear")
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The summaries as an xarray Dataset over the pairs."""
+        return self.to_dataframe().to_xarray()
 
 
 class SceneFailed(RunError):
@@ -89,8 +107,9 @@ def run(
 
     Parameters
     ----------
-    input : a file, namelist text, or a dict of groups of keys
-    set : keys as 'group.key' with the values that they get instead of those of the input
+    input : a file, namelist text, or a dict of groups of keys, of several &gear as a list
+    set : keys with the values that they get instead of those of the input, as 'group.key' or by group;
+        'gear' means all pairs of the input, 'gear(2)' its second
     folder : where the files go; None: a temporary one that lives as long as the result
     overwrite : whether files of an earlier run in `folder` may be replaced
     resume : whether an earlier run in `folder` is carried on
@@ -107,11 +126,16 @@ def run(
     RunError
         Everything else, such as a full disk.
 
+    Warns
+    -----
+    InputWarning
+        What is odd about the input, such as a number that was surely meant in another unit.
+
     An interruption from the keyboard is handed to the program, which saves the state that `resume` needs.
     """
     command = [str(program or find_program())]
     text = text_of(input)
-    settings = [f"{key}={literal(value)}" for key, value in (set or {}).items()]
+    settings = [f"{key}={literal(value)}" for key, value in _keys_set(set or {})]
     command += ["--overwrite"] if overwrite else []
     command += ["--resume"] if resume else []
     if threads is not None:
@@ -124,6 +148,8 @@ def run(
             command + ["-" if text is not None else _file(input)], settings, text or ""
         )
         solved = _outcome(ended)
+        every = [solved] if isinstance(solved, Solved) else solved.values()
+        faults.warn(line for one in every for line in input_warnings(one.summary))
     except BaseException:
         if folder is None:
             shutil.rmtree(place, ignore_errors=True)
@@ -218,6 +244,19 @@ def find_program() -> str:
     return found
 
 
+def _keys_set(given: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Each key that is set, as 'group.key', with its value."""
+    for name, value in given.items():
+        if "." in name:
+            yield name, value
+        elif isinstance(value, Mapping):
+            yield from ((f"{name}.{key}", own) for key, own in value.items())
+        else:
+            raise TypeError(
+                f"set[{name!r}] has to be a dict of keys: several pairs are 'gear(1)', 'gear(2)', ..."
+            )
+
+
 def _varied(vary: Mapping[str, Range | Iterable[float]] | None) -> dict[str, Any]:
     """Keys of &campaign that vary these."""
     asked: dict[str, Any] = {}
@@ -237,11 +276,13 @@ def _varied(vary: Mapping[str, Range | Iterable[float]] | None) -> dict[str, Any
 def text_of(given: Input) -> str | None:
     """The namelist text of an input that is no file; None where it is one."""
     if isinstance(given, Mapping):
-        groups = []
-        for group, keys in given.items():
-            lines = [f"   {key} = {literal(value)}\n" for key, value in keys.items()]
-            groups.append(f"&{group}\n{''.join(lines)}/\n")
-        return "".join(groups)
+        text = ""
+        for name, groups in given.items():
+            for keys in [groups] if isinstance(groups, Mapping) else groups:
+                lines = [f"   {key} = {literal(value)}\n" for key, value in keys.items()]
+                # The groups of a resolved input are called gear, gear(2), ...
+                text += f"&{name.partition('(')[0]}\n{''.join(lines)}/\n"
+        return text
     if isinstance(given, str) and ("\n" in given or given.lstrip().startswith("&")):
         return given
     return None

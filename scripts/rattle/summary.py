@@ -79,6 +79,12 @@ def _check_results(path: Path, summary: Summary) -> None:
             raise SummaryError(f"{path} does not belong to {other} beside it: {DIFFERENT}.")
 
 
+def input_warnings(summary: Summary) -> list[str]:
+    """What the program found odd about the input."""
+    found = summary.get("input_warnings", [])
+    return [found] if isinstance(found, str) else list(found)
+
+
 def comparison_table(summaries: Sequence[Summary]) -> list[list[str]]:
     """Rows of text, a column for each scene; the first row holds the scene names, and no row is empty."""
     rows = [["", *(str(summary["name"]).strip() for summary in summaries)]]

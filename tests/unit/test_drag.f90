@@ -261,7 +261,7 @@ contains
       call checks%check_close(phases(2), -3.07079632679_dp, 1.0e-11_dp, 'E1 mirrored: phase the short way round')
    end subroutine test_excitation_table
 
-   !> Contact ratios of two pairs whose tip diameters are not known, and of one with the tips that were taken there.
+   !> Contact ratios of two pairs whose tip diameters are not known, and of one with tips as high that are not shortened.
    subroutine test_contact_ratios(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
       type(gear_t) :: gears
@@ -273,8 +273,8 @@ contains
       gears = gear_t(teeth_1=19, teeth_2=37, normal_module=2.2e-3_dp, pressure_angle_deg=20.0_dp, helix_angle_deg=28.0_dp, &
                      face_width=0.016_dp, centre_distance=0.070_dp, loose_inertia=8.9e-4_dp)
       call find_contact(gears, 0.0_dp, 10.0_dp, contact, wrong, message)
-      call checks%check_close(contact%contact_ratio, 1.35319203678_dp, 1.0e-11_dp, '19/37: eps_alpha')
-      call checks%check_close(contact%overlap_ratio, 1.0868177434_dp, 1.0e-10_dp, '19/37: eps_beta')
+      call checks%check_close(contact%teeth%contact_ratio, 1.351943473539_dp, 1.0e-12_dp, '19/37: eps_alpha')
+      call checks%check_close(contact%teeth%overlap_ratio, 1.0868177434_dp, 1.0e-10_dp, '19/37: eps_beta')
       call checks%check_close(contact%contact_lines, 1.0_dp, 0.0_dp, '19/37: one line where no tip diameter is given')
       length = contact%length
       tips = 2.0_dp*(0.5_dp*2.2e-3_dp*[19.0_dp, 37.0_dp]/cos(28.0_dp*two_pi/360.0_dp) + 2.2e-3_dp*(1.0_dp + shift))
@@ -287,8 +287,8 @@ contains
       gears = gear_t(teeth_1=11, teeth_2=38, normal_module=2.5e-3_dp, pressure_angle_deg=20.0_dp, helix_angle_deg=-28.96_dp, &
                      face_width=0.016_dp, loose_inertia=1.715e-3_dp)
       call find_contact(gears, 0.0_dp, 10.0_dp, contact, wrong, message)
-      call checks%check_close(contact%contact_ratio, 1.30511390286_dp, 1.0e-11_dp, '11/38: eps_alpha')
-      call checks%check_close(contact%overlap_ratio, 0.986401904099_dp, 1.0e-12_dp, '11/38: eps_beta, whichever the hand')
+      call checks%check_close(contact%teeth%contact_ratio, 1.30511390286_dp, 1.0e-11_dp, '11/38: eps_alpha')
+      call checks%check_close(contact%teeth%overlap_ratio, 0.986401904099_dp, 1.0e-12_dp, '11/38: eps_beta, whichever the hand')
    end subroutine test_contact_ratios
 
    !> Tips that interfere, that lie within the base circle, that do not reach each other.

@@ -131,7 +131,8 @@ contains
                     loose_inertia=1.0e-3_dp, pressure_angle_deg=20.0_dp)
       call find_contact(pair, pair%drag_torque, 10.0_dp, contact, wrong, message)
       call checks%check(wrong == 'centre_distance' .and. len(message) > 0, 'gears within their base circles are refused')
-      pair%centre_distance = 0.0470_dp
+      ! 50 tan(alpha_wt) = 2 pi at 7.162 degrees, 47.355 mm: the line of action is one pitch long.
+      pair%centre_distance = 0.0474_dp
       call find_contact(pair, pair%drag_torque, 10.0_dp, contact, wrong, message)
       call checks%check(wrong == '', 'gears that just mesh are taken')
       ends = [contact%first_position, contact%last_position]

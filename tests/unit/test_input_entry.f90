@@ -3,7 +3,7 @@ module test_input_entry
    use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_overflow
    use checks, only: check_list_t
    use errors, only: fault_list_t
-   use input_entry, only: entry_t, new_entry, set_entry, value_text
+   use input_entry, only: close_list, entry_t, new_entry, set_entry, value_text
    use input_key, only: key_t
    use key_table, only: find_key, keys
    use kinds, only: dp
@@ -30,13 +30,13 @@ contains
    subroutine test_numbers(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      character(8), parameter :: right(8) = [character(8) :: '1', '+1.', '.5', '1e3', '1.5E+03', '1.5d-03', &
-         '0.25', '007']
-      real(dp), parameter :: values(8) = [1.0_dp, 1.0_dp, 0.5_dp, 1.0e3_dp, 1.5e3_dp, 1.5e-3_dp, 0.25_dp, &
-         7.0_dp]
-      character(8), parameter :: wrong(17) = [character(8) :: '.', 'e5', '1e', '1e5.5', '1.2.3', 'nan', &
+      character(8), parameter :: right(13) = [character(8) :: '1', '+1.', '.5', '1e3', '1.5E+03', '1.5d-03', &
+         '0.25', '007', '1.0q-8', '5Q2', '1.0-8', '1.+3', '1*3']
+      real(dp), parameter :: values(13) = [1.0_dp, 1.0_dp, 0.5_dp, 1.0e3_dp, 1.5e3_dp, 1.5e-3_dp, 0.25_dp, &
+         7.0_dp, 1.0e-8_dp, 500.0_dp, 1.0e-8_dp, 1.0e3_dp, 3.0_dp]
+      character(8), parameter :: wrong(21) = [character(8) :: '.', 'e5', '1e', '1e5.5', '1.2.3', 'nan', &
          'inf', '-1', '0', '1e999', &
-         '0x10', '1*3', '3;', '1.0_dp', '--1', '1e+-3', '1 2']
+         '0x10', '2*3', '3;', '1+5', '1.0q', '1.0-', '.-3', '1.0_dp', '--1', '1e+-3', '1 2']
       type(entry_t) :: entry
       type(fault_list_t) :: faults
       integer :: i, before
@@ -117,8 +117,8 @@ contains
       call expect("&output directory='' /", 'f:1: &output directory:', 'empty text')
       call expect("&output directory='"//repeat('x', 513)//"' /", 'f:1: &output directory:', 'text too long')
       call expect("&output columns='time','times' /", 'f:1: &output columns: ''times''', 'unknown column')
-      call expect("&output columns(2)='time' /", 'f:1: &output columns: element 2 is given, but element 1 is not;', &
-         'index beyond 1')
+      call expect("&output columns(2)='time' /", 'f:1: &output columns: element 1 is not set, but element 2 is;', &
+         'element left unset')
       call expect('&load mass(1)=3.0 /', 'f:1: &load mass: takes no index', 'index of a number')
       call expect('&load mass=3.0 4.0 /', 'f:1: &load mass: takes one value, 2', 'two values')
       call expect('&campaign values=1 2 /', 'f:1: &campaign values: give it as values(:, 1) = ..., values(:, 2) = ...', &
@@ -198,8 +198,9 @@ contains
       position = find_key(assignments(2)%group//'.'//assignments(2)%key)
       entry = new_entry(keys(position), 'f')
       do i = 2, size(assignments)
-         call set_entry(keys(position), assignments(i), entry, 'f', faults)
+         call set_entry(keys(position), assignments(i), .true., entry, 'f', faults)
       end do
+      call close_list(keys(position), entry, faults)
    end subroutine read_entry
 
 end module test_input_entry

@@ -21,6 +21,7 @@ contains
       call test_values(checks)
       call test_line_ends(checks)
       call test_many(checks)
+      call test_outside(checks)
       call test_faults(checks)
    end subroutine run_namelist_text_tests
 
@@ -43,7 +44,7 @@ contains
       call checks%check(assignments(1)%group == 'load' .and. assignments(1)%key == 'mass', &
          'names in lower case')
       call checks%check(all(assignments%line == [3, 3, 6]), 'lines')
-      call checks%check(all(assignments%first_element == [0, 0, 2]), 'index')
+      call checks%check(size(assignments(2)%subscripts) == 0 .and. assignments(3)%subscript_text == '(2)', 'index')
       call checks%check(assignments(2)%values(1)%text == '600' .and. .not. assignments(2)%values(1)%quoted, &
          'bare value')
       call checks%check(size(assignments(3)%values) == 2, 'two values')
@@ -111,7 +112,7 @@ contains
 
       do i = 1, size(ends)
          line_end = trim(ends(i))
-         call read_text('! comment'//line_end//'&g k=1 ! one'//line_end//line_end//'m=2 /'//line_end//'stray', assignments, &
+         call read_text('! comment'//line_end//'&g k=1 ! one'//line_end//line_end//'m=2 /'//line_end//'m=3', assignments, &
                         faults)
          call checks%check(size(assignments) == 2, 'a comment swallows nothing')
          if (size(assignments) /= 2) cycle
@@ -121,28 +122,63 @@ contains
       end do
    end subroutine test_line_ends
 
+   !> Text outside groups is passed over, and groups open and close as in old compilers.
+   subroutine test_outside(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(assignment_t), allocatable :: assignments(:)
+      type(fault_list_t) :: faults
+
+      call read_text('Load case 3: Q & A, R&D for $5, it''s old; x == 3'//end_of_line//'===='//end_of_line// &
+                     'a film of 2 = 3'//end_of_line//'# &gear k=3'//end_of_line//'some text &load k=1 / behind it'//end_of_line// &
+                     '$h'//end_of_line//'  # k=2'//end_of_line//'l=2 ! /'//end_of_line//'&end &i m=3 $END'//achar(12)// &
+                     end_of_line//'/'//end_of_line//'&end'//end_of_line//'$ rattle'//end_of_line//achar(26), assignments, faults)
+      call checks%check(faults%count() == 0, 'text outside groups')
+      if (faults%count() > 0) call checks%check(.false., faults%sentence(1))
+      call checks%check(size(assignments) == 3, 'three groups')
+      if (size(assignments) /= 3) return
+      call checks%check(all(assignments%line == [5, 8, 9]), 'lines of groups among text')
+   end subroutine test_outside
+
    !> Every fault is found at its line, and the text after it is still read.
    subroutine test_faults(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       call expect('', 1, 0, 'f: the file is empty', 'empty text')
       call expect('   '//end_of_line, 0, 0, '', 'blank lines only hold nothing')
-      call expect('stray'//end_of_line//'&g k=1 /', 1, 1, 'f:1: text outside', 'text outside a group')
+      call expect('stray'//end_of_line//'more', 1, 0, 'f:1: text outside', 'text without any group')
+      call expect('k = 1'//end_of_line//'&g k=1 /', 1, 1, 'f:1: text outside', 'key outside a group')
+      call expect('k(1) = 1'//end_of_line//'m=1'//end_of_line//'&g k=1 /', 1, 1, 'f:1: text outside', 'lines that follow are one')
+      call expect('%load k=1 /'//end_of_line//'&g k=1 /', 1, 1, 'f:1: text outside', 'another sign')
+      call expect('load k = 1 /'//end_of_line//'&g k=1 /', 1, 1, 'f:1: text outside', 'no sign')
+      call expect('Laod'//end_of_line//'&g k=1 /', 1, 1, 'f:1: text outside', 'no sign, misspelt, alone on its line')
+      call expect('&g k=1 / load ! the next'//end_of_line, 1, 1, 'f:1: text outside', 'no sign, behind a group')
       call expect('&'//end_of_line//'&g k=1 /', 1, 1, 'f:1: a group name must follow', 'group without a name')
       call expect('&g k=1 /'//end_of_line//'&g m=2 /', 1, 2, 'f:2: &g: this group stands in line 1', &
          'group twice')
       call expect('&g k=1'//end_of_line//'&h m=2 /', 1, 2, 'f:1: &g: this group is not closed', 'open group')
       call expect('&g k=1', 1, 1, 'f:1: &g: this group is not closed', 'open at the end')
+      call expect('&g k=1 &ending', 2, 1, 'f:1: &g: this group is not closed', 'a longer word is no end')
       call expect('&g'//end_of_line//'k 1'//end_of_line//'m=2 /', 1, 1, 'f:2: &g k: an equals sign', &
          'no equals sign')
+      call expect('&g k 1 /', 1, 0, 'f:1: &g k: an equals sign', 'no equals sign in one line')
       call expect('&g'//end_of_line//'= 1'//end_of_line//'m=2 /', 1, 1, 'f:2: &g: unexpected ''=''', 'no key')
       call expect('&g k = m=2 /', 1, 1, 'f:1: &g k: a value is missing', 'no value')
-      call expect('&g k = 1,,2 /', 1, 0, 'f:1: &g k: a value is missing before', 'two commas')
       call expect('&g k = ''abc'//end_of_line//'m=2 /', 1, 1, 'f:1: &g k: the closing quote', 'open quote')
+      call expect('&g k = 1; 2; m=2 /', 1, 1, 'f:1: &g k: a semicolon separates', 'semicolons')
+      call expect('&g k = 0*1 m=2 /', 1, 1, 'f:1: &g k: the repeat count', 'repeat count of none')
+      call expect('&g k = 99999999999*1 m=2 /', 1, 1, 'f:1: &g k: the repeat count', 'repeat count beyond integers')
+      call expect('&g k = 3*1 1000000*2 m=2 /', 1, 1, 'f:1: &g k: at most 1000000', 'too many values')
       call expect('&g k(0) = 1'//end_of_line//'m=2 /', 1, 1, 'f:1: &g k: the index', 'index 0')
-      call expect('&g k(1:2) = 1'//end_of_line//'m=2 /', 1, 1, 'f:1: &g k: the index', 'section')
-      call expect('&g k(:) = 1'//end_of_line//'m=2 /', 1, 1, 'f:1: &g k: the index', 'column without its number')
+      call expect('&g k(9223372036854775807) = 1 m=2 /', 1, 1, 'f:1: &g k: the index', 'index beyond integers, one fault')
+      call expect('&g k(1:2:0) = 1 m=2 /', 1, 1, 'f:1: &g k: the index', 'stride 0')
+      call expect('&g k(3:1) = 1 m=2 /', 1, 1, 'f:1: &g k: the index', 'section without elements')
+      call expect('&g k(::-1) = 1 m=2 /', 1, 1, 'f:1: &g k: the index', 'backwards from nowhere')
+      call expect('&g k(1:2:3:4) = 1 m=2 /', 1, 1, 'f:1: &g k: the index', 'four parts')
+      call expect('&g k() = 1 m=2 /', 1, 1, 'f:1: &g k: the index', 'no index')
+      call expect('&g k(x) = 1 m=2 /', 1, 1, 'f:1: &g k: the index', 'a word')
       call expect('&g k(:,) = 1'//end_of_line//'m=2 /', 1, 1, 'f:1: &g k: the index', 'column with an empty number')
+      call expect('&g k(1 = 2 /', 1, 0, 'f:1: &g k: the index', 'open parenthesis')
       call expect('&g k=1'//end_of_line//achar(0)//' /', 1, 0, 'f:2: not a text file', 'binary file')
 
    contains

@@ -137,6 +137,7 @@ contains
 
       call scan_namelists(text, 'f', 1, assignments, faults)
       call input%set_all(assignments, 'f', overriding)
+      call input%close_lists()
       call faults%take(input%faults)
    end subroutine take
 

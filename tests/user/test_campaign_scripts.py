@@ -145,7 +145,7 @@ def test_absurd_array_is_refused(campaign_input, tmp_path):
     refused = call_script(*command, 10_000_000, cwd=tmp_path)
     assert refused.returncode == 2 and "10000000 tasks are more than any cluster takes" in refused.stderr
     assert not (tmp_path / "map.slurm").exists()
-    assert call_script(*command, 10_000, cwd=tmp_path).returncode == 0
+    assert call_script(*command, 100_000, cwd=tmp_path).returncode == 0
 
 
 def test_mpi_job(campaign_input, tmp_path):
@@ -209,9 +209,11 @@ def test_job_script_without_warning_keeps_the_exit_code(campaign_input, tmp_path
         (["absent.nml"], "No such file or directory"),
         (["map.nml", "--array", "0"], "is not a positive whole number"),
         (["map.nml", "--array", "2", "--ranks", "2"], "not allowed with argument"),
-        (["map.nml", "--time", "90"], "'90' is not a time such as 02:30:00"),
+        (["map.nml", "--time", "90 min"], "'90 min' is not a time such as 90 (minutes), 02:30:00"),
+        (["map.nml", "--time", "3"], "leaves no time to compute: Slurm may warn 180 s before it"),
+        (["map.nml", "--signal-seconds", "70000"], "Slurm warns at most 65535 s ahead"),
         (["map.nml", "--time", "00:02:00"], "leaves no time to compute: Slurm may warn 180 s before it"),
-        (["map.nml", "--memory", "2 GB"], "'2 GB' is not an amount of memory such as 500M or 2G"),
+        (["map.nml", "--memory", "2 GB"], "'2 GB' is not an amount of memory such as 500M, 2G or 4096"),
         (["map.nml", "--account", "a b"], "'a b' is not a name that Slurm takes"),
         (["plain.nml"], "plain.nml has no group &campaign."),
     ],
@@ -235,10 +237,46 @@ def test_an_older_script_is_kept(campaign_input, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("time", "seconds"), [("00:00:59", 59), ("01:02:03", 3723), ("30:00:00", 108000), ("2-01:00:00", 176400)]
+    ("time", "seconds"),
+    [
+        ("00:00:59", 59),
+        ("01:02:03", 3723),
+        ("30:00:00", 108000),
+        ("2-01:00:00", 176400),
+        ("90", 5400),
+        ("90:30", 5430),
+        ("1:90:75", 9075),
+        ("2-", 172800),
+        ("2-01", 176400),
+        ("2-01:30", 178200),
+        ("0-0:0:45", 45),
+        ("UNLIMITED", None),
+        ("infinite", None),
+        ("-1", None),
+        ("0", None),
+        ("00:00:00", None),
+    ],
 )
 def test_time_limits_are_read_as_slurm_does(time, seconds):
+    """As its time_str2secs does; no time at all is no limit."""
     assert job_script.seconds_of(time) == seconds
+
+
+@pytest.mark.parametrize("time", ["", "90 ", "1:2:3:4", "1-2-3", "-5", ":30", "1-:30", "1h", "\u0661", "1.5"])
+def test_what_slurm_does_not_take_is_no_time(time):
+    with pytest.raises(ValueError):
+        job_script.seconds_of(time)
+
+
+def test_what_slurm_takes_stands_in_the_script_as_it_was_given(campaign_input, tmp_path):
+    given = {"--partition": "long,short", "--account": "nvh/7#a", "--memory": "4096"}
+    for time in ("90", "UNLIMITED"):
+        options = [part for pair in {**given, "--time": time}.items() for part in pair]
+        lines = script_text(tmp_path, *options, "--overwrite").splitlines()
+        assert f"#SBATCH --time={time}" in lines and "#SBATCH --mem-per-cpu=4096" in lines
+        assert "#SBATCH --partition=long,short" in lines and '#SBATCH --account="nvh/7#a"' in lines
+    for memory in ("2g", "512MB", "1Tb", "0"):
+        assert f"#SBATCH --mem-per-cpu={memory}" in script_text(tmp_path, "--memory", memory, "--overwrite")
 
 
 # --- state

@@ -36,7 +36,7 @@ def options(**given: object) -> Namespace:
 def fitted(figure: Figure, **given: object) -> Figure:
     if given.get("width"):
         given["width"] /= 25.4
-    with style.house_style(own=False):
+    with style.house_style():
         fit(figure, options(**given))
         FigureCanvasAgg(figure).draw()
     return figure
@@ -64,7 +64,7 @@ def made(tmp_path_factory, run, repository, scene_text) -> dict[str, Path]:
 def figure(request, idle, made) -> Figure:
     """One figure of each kind."""
     pair = [idle, idle]
-    with style.house_style(own=False):
+    with style.house_style():
         campaign = rattle.read_campaign(made["map"])
         plane = new_section(campaign, campaign.varied, {})
         makers = {
@@ -114,7 +114,7 @@ def test_all_words_stand_within_the_figure_and_can_be_read(figure, width):
 
 
 def test_no_word_is_lost_in_a_column(idle):
-    with style.house_style(own=False):
+    with style.house_style():
         wide = spectra.draw_acceleration([idle], ["idle"], None)
         words = drawn.all_words(wide).split()
         narrow = fitted(spectra.draw_acceleration([idle], ["idle"], None), width=80.0)
@@ -135,7 +135,7 @@ def test_legends_move_out_of_narrow_axes():
 
 
 def test_the_size_of_type_is_the_one_asked_for(idle):
-    with style.house_style(own=False):
+    with style.house_style():
         figure = histories.draw_acceleration([idle], ["idle"], 4)
     fitted(figure, font_size=12.0)
     axes = figure.axes[0]
@@ -166,14 +166,14 @@ def test_limits_are_those_asked_for(idle):
 
 
 def test_limits_that_a_logarithmic_axis_cannot_have_are_refused(made):
-    with style.house_style(own=False), pytest.raises(CommandError, match="this axis is logarithmic"):
+    with style.house_style(), pytest.raises(CommandError, match="this axis is logarithmic"):
         fitted(sweep.draw(rattle.read(made["sweep"])), ylim=(-1.0, 1.0))
 
 
 def test_without_wishes_nothing_changes(figure):
     before = [(text.get_text(), text.get_fontsize()) for text in figure.findobj(Text)]
     size = tuple(figure.get_size_inches())
-    with style.house_style(own=False):
+    with style.house_style():
         fit(figure, options())
     assert [(text.get_text(), text.get_fontsize()) for text in figure.findobj(Text)] == before
     assert tuple(figure.get_size_inches()) == size
@@ -209,7 +209,7 @@ def test_wishes_that_cannot_be_met_are_refused(idle, tmp_path, given, words):
 def test_spectra_stand_over_what_was_asked_for(idle, frequency, factor):
     view = spectra.View(frequency, 9000.0)
     extent = motion.Extent(4, None, view)
-    with style.house_style(own=False):
+    with style.house_style():
         ((_, spectrum),) = motion.single_figures([idle], [10], extent)
         ((_, force),) = motion.single_figures([idle], [7], extent)
     places, heights = drawn.bars(spectrum.axes[0])[1]
@@ -240,7 +240,7 @@ def test_where_there_is_a_shaft_lines_stand_at_engine_orders(tmp_path):
     """Also those of an overlay, each at its own shaft; beside a run without a shaft all are harmonics."""
     whole, half = shafted(tmp_path, "whole"), shafted(tmp_path, "half", 60000.0)
     plain = rattle.read(write_motion(tmp_path / "plain.rattle", lines=HALVES, force={4: 150.0}))
-    with style.house_style(own=False):
+    with style.house_style():
         alone = spectra.draw_acceleration([whole], ["whole"], None)
         force = spectra.draw_force([whole], ["whole"], None)
         asked = spectra.draw_acceleration([whole], ["whole"], None, spectra.View("ratio"))
@@ -272,7 +272,7 @@ def test_orders_count_the_shaft_of_the_scene(repository, run, tmp_path):
     assert run(scene, "--set", "spectrum.verify=.false.", "--output", tmp_path, cwd=tmp_path).returncode == 0
     result = rattle.read(tmp_path / "loose_pair.rattle")
     for speed, factor in ((None, 2.0), (1600.0, 1.0)):
-        with style.house_style(own=False):
+        with style.house_style():
             figure = spectra.draw_force([result], ["pair"], None, spectra.View("order", speed))
         places, heights = drawn.bars(figure.axes[0])[0]
         strong = places[heights > 0.1]
@@ -280,7 +280,7 @@ def test_orders_count_the_shaft_of_the_scene(repository, run, tmp_path):
 
 
 def test_levels_are_those_of_the_amplitudes(idle):
-    with style.house_style(own=False):
+    with style.house_style():
         figure = spectra.draw_acceleration([idle], ["idle"], None, spectra.View(decibels=True))
     (axes,) = figure.axes
     assert "dB re 10$^{-6}$ m/s$^2$" in axes.get_ylabel()
@@ -292,7 +292,7 @@ def test_levels_are_those_of_the_amplitudes(idle):
 
 
 def test_runs_side_by_side_have_marks_of_their_own(idle):
-    with style.house_style(own=False):
+    with style.house_style():
         figure = spectra.draw_acceleration([idle, idle], ["one", "two"], None)
     marks = [line.get_marker() for line in figure.axes[0].lines]
     assert len(set(marks)) == len(marks) == 2
@@ -304,7 +304,7 @@ def test_a_short_impact_has_a_panel_of_its_own(tmp_path):
     hard = rattle.read(
         write_motion(tmp_path / "hard.rattle", lines=IMPACT, steps_per_period=1024, periods=16, window=8)
     )
-    with style.house_style(own=False):
+    with style.house_style():
         figure = histories.draw_acceleration([hard], ["hard"], 4)
     whole, near = figure.axes
     first, last = near.get_xlim()
@@ -322,29 +322,6 @@ def test_long_impacts_and_those_between_samples_have_none(idle, tmp_path):
         assert histories.impact(result, 4) is None
 
 
-def test_settings_of_the_user_count(idle, tmp_path):
-    (tmp_path / "matplotlibrc").write_text("axes.edgecolor: red\nfont.size: 14\n")
-    settings = {"MATPLOTLIBRC": str(tmp_path / "matplotlibrc")}
-    plain, own = tmp_path / "plain", tmp_path / "own"
-    for output, environment in ((plain, {}), (own, settings)):
-        done = call_script(
-            "plot.py",
-            "motion",
-            idle.path,
-            "--figures",
-            8,
-            "--format",
-            "svg",
-            "--output",
-            output,
-            **environment,
-        )
-        assert done.returncode == 0, done.stderr
-    before, after = ((folder / "figure_08_idle.svg").read_text() for folder in (plain, own))
-    assert "#ff0000" in after and "#ff0000" not in before
-    assert "scale(0.14" in after and "scale(0.14" not in before
-
-
 @pytest.mark.long
 def test_pairs_of_runs_stand_below_each_other_in_a_column(tmp_path):
     loose = write_motion(tmp_path / "loose.rattle", lines={1.0: 4.0}, tolerance=1e-7)
@@ -353,7 +330,7 @@ def test_pairs_of_runs_stand_below_each_other_in_a_column(tmp_path):
         tolerance.Pair(name, rattle.read(loose), rattle.read(tight), 6.0) for name in ("First", "Second")
     ]
     for width, columns in ((80.0, 1), (160.0, 2)):
-        with style.house_style(own=False):
+        with style.house_style():
             made = tolerance.draw(pairs, 3, 16, is_narrow(width / 25.4))
         fitted(made, width=width)
         assert len({round(axes.get_position().x0, 2) for axes in made.axes}) == columns

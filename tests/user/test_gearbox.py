@@ -394,7 +394,7 @@ def test_all_pairs_stand_together_in_one_figure(solve, tmp_path: Path) -> None:
         gear: new_section(alone, ("shaft.speed_rpm", "gear.drag_torque"), {})
         for gear, alone in zip(campaign.gears, campaign.pairs, strict=True)
     }
-    with style.house_style(own=False):
+    with style.house_style():
         figure = campaign_map.draw_pairs(sections, ("rattle_class", "film_force_rms"), campaign_map.Options())
     first, second, force, larger, bar = figure.axes
     assert [axes.get_title(loc="left") for axes in (first, second)] == ["1st", "4th"]
@@ -404,7 +404,7 @@ def test_all_pairs_stand_together_in_one_figure(solve, tmp_path: Path) -> None:
     assert meshes[0].norm.vmin == meshes[1].norm.vmin and meshes[0].norm.vmax == meshes[1].norm.vmax
     for mesh, alone in zip(meshes, campaign.pairs, strict=True):
         assert np.array_equal(np.ravel(mesh.get_array()), alone.grid("film_force_rms").T.ravel())
-    with style.house_style(own=False):
+    with style.house_style():
         column = campaign_map.draw_pairs(
             sections, ("rattle_class", "film_force_rms"), campaign_map.Options(), narrow=True
         )

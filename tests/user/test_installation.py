@@ -19,7 +19,17 @@ from rattle.keys import key_table
 # They share a folder of the build: the tests of a file run one after another.
 pytestmark = pytest.mark.long
 
-SCRIPTS = ("calibrate", "campaign", "classify", "compare", "export", "plot", "report", "sensitivity")
+SCRIPTS = (
+    "calibrate",
+    "campaign",
+    "classify",
+    "compare",
+    "export",
+    "plot",
+    "recording",
+    "report",
+    "sensitivity",
+)
 
 
 def call(*command: object, cwd: Path, **environment: str) -> str:
@@ -100,6 +110,7 @@ def test_the_package_solves_reports_and_has_its_kernels(installed, repository, t
     packages = installed / "lib" / "rattle"
     told = call(sys.executable, "-c", words, cwd=tmp_path, PYTHONPATH=str(packages)).splitlines()
     assert told[:3] == [str(packages / "rattle" / "__init__.py"), str(installed / "bin" / "rattle"), "idle"]
+    assert (packages / "rattle" / "py.typed").is_file()
     assert float(told[3]) == pytest.approx(0.4435543342)
     call(installed / "bin" / "rattle-report", "out/idle.rattle", cwd=tmp_path)
     page = (tmp_path / "report.html").read_text()
@@ -236,7 +247,7 @@ def test_pip_installs_the_checkout_with_program_and_kernels(repository, tmp_path
     )
     call(sys.executable, "-m", "pip", "install", *options, repository, cwd=tmp_path)
     words = (
-        "import rattle; print(rattle.__file__, rattle.version)\n"
+        "import rattle; print(rattle.__file__, rattle.__version__)\n"
         "from rattle import kernels; print(kernels.rupture_angle(0.0))"
     )
     told = call(sys.executable, "-c", words, cwd=tmp_path, PYTHONPATH=str(site)).split()
@@ -250,4 +261,5 @@ def test_pip_installs_the_checkout_with_program_and_kernels(repository, tmp_path
     assert f"Version: {told[1]}\n" in described
     assert re.search(r"^Requires-Dist: numpy>=", described, re.MULTILINE)
     recorded = next(site.glob("rattle-*.dist-info/RECORD")).read_text()
-    assert "rattle/keys.md,sha256=" in recorded and "rattle/_kernels" in recorded
+    for file in ("keys.md,sha256=", "_kernels", "py.typed,sha256="):
+        assert f"rattle/{file}" in recorded

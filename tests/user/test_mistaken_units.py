@@ -39,7 +39,6 @@ OF_GEARS = [
     ("gear.loose_inertia", "1715", "0.001715 kg m2 if it was meant in kg mm2"),
     ("gear.face_width", "16", "it would be 0.01600 m if it was meant in mm"),
     ("gear.normal_module", "2.5", "it would be 0.002500 m if it was meant in mm"),
-    ("gear.centre_distance", "71", "it would be 0.07100 m if it was meant in mm"),
     ("gear.drag_torque", "100", "it would be 0.1000 N m if it was meant in N mm"),
     ("gear.backlash", "100", "it would be 1.000E-4 m if it was meant in um"),
     ("gear.backlash", "0.1", "it would be 1.000E-4 m if it was meant in mm"),
@@ -53,6 +52,8 @@ OF_GEARS = [
     ("contact.young_modulus", "206000", "it would be 2.060E11 Pa if it was meant in MPa"),
 ]
 REFUSED = [
+    ("gear.centre_distance", "71", "it would be 0.07100 m if it was meant in mm"),
+    ("gear.contact_position", "1.5", "it would be 0.001500 m if it was meant in mm"),
     ("oil.pressure_viscosity", "20", "it would be 2.000E-8 1/Pa if it was meant in 1/GPa"),
     ("gear.pressure_angle_deg", "0.349", "it would be 20.00 deg if it was meant in rad"),
     ("oil.viscosity_40_cst", "0.0505", "it would be 58.05 mm2/s if it was meant in Pa s"),

@@ -102,16 +102,54 @@ def test_compare_draws_measured_cuts_alone(result: Path, tmp_path: Path) -> None
     assert not list(tmp_path.glob("*.png"))
 
 
+PLAIN = [(800.0, 1.5, 0.25), (900.0, np.nan, 0.5), (1000.0, 2.5, 0.75)]
+# One table as benches write it: bytes, and what they are to the plain one.
+WRITTEN = {
+    "plain": b"speed_rpm,order_2,order_3\n800,1.5,0.25\n900,,0.5\n1000,2.5,0.75\n",
+    "BOM and DOS ends": b"\xef\xbb\xbfspeed_rpm,order_2,order_3\r\n"
+    b"800,1.5,0.25\r\n900,,0.5\r\n1000,2.5,0.75\r\n",
+    "semicolons": b"speed_rpm;order_2;order_3\n800;1,5;0,25\n900;;0,5\n1000;2,5;0,75\n",
+    "a row of units": b"speed;order_2;order_3\n1/min;m/s2;mm/s\xb2\n800;1,5;250\n900;;500\n1000;2,5;750\n",
+    "units in the head": b"speed [1/s],order_2 (mm/s2),order_3_m/s2\n13.333333333333334,1500,.25\n15,,5d-1\n"
+    b"16.666666666666668,2500,0.75\n",
+    "comments": b"# Pr\xfcfstand\n\nspeed_rpm,order_2,order_3\n"
+    b"# K\xf6ln\n800,1.5,0.25\n900,,0.5\n\n1000,2.5,0.75",
+    "quotes": b'"speed_rpm","order_2","order_3"\n"800","1.5","0.25"\n"900","","0.5"\n"1000","2.5","0.75"\n',
+    "separators at the end": b"speed_rpm,order_2,order_3,\n800,1.5,0.25,\n900,,0.5,\n1000,2.5,0.75,\n",
+    "another order": b"order_3,speed_rpm,order_2\n0.25,800,1.5\n0.5,900,\n0.75,1000,2.5\n",
+}
+
+
+@pytest.mark.parametrize("form", WRITTEN)
+def test_measured_cuts_are_read_as_benches_write_them(form: str, tmp_path: Path) -> None:
+    path = tmp_path / "K\u00f6ln bench.csv"
+    path.write_bytes(WRITTEN[form])
+    cuts = orders.read_measured(path)
+    assert sorted(cuts.orders) == [2.0, 3.0]
+    found = np.column_stack([cuts.speeds, cuts.at(2.0), cuts.at(3.0)])
+    np.testing.assert_allclose(found, PLAIN, rtol=1e-14)
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     (
-        ("", "the head has to be"),
-        ("speed,order_2\n1,2\n", "the head has to be"),
-        ("speed_rpm,level\n1,2\n", "the head has to be"),
-        ("speed_rpm,order_2\n800,x\n900,1\n", "row 2: '800,x' is not 2 numbers"),
+        ("", "bad.csv: the file is empty; its first line must name its columns, such as speed_rpm,order_2"),
+        ("order_2\n1\n2\n", "bad.csv:1: the head has to be speed_rpm,order_2"),
+        ("speed,order_2\n1,2\n", "bad.csv:1: column 1 (speed) is neither the speed nor an order"),
+        ("speed_rpm,level\n1,2\n", "bad.csv:1: column 2 (level) is neither the speed nor an order"),
+        ("speed_rpm,order_2,order_2\n1,2,3\n", "bad.csv:1: column 3 (order_2) is neither"),
+        (
+            "speed_rpm,order_2 [kN]\n800,1\n900,1\n",
+            "bad.csv:1: column 2 (order_2 [kN]): it is in kN; m/s2 is needed",
+        ),
+        ("speed_rpm,order_2\n800,1\n900,x\n", "bad.csv:3: column 2: no number stands here"),
+        ("speed_rpm,order_2\n\n800,1\n900,inf\n", "bad.csv:4: column 2: no number stands here"),
+        ("speed_rpm,order_2\n800,1\n900,nan\n", "bad.csv:3: column 2: no number stands here"),
+        ("speed_rpm,order_2\n800,1\n900,1,5\n", "bad.csv:3: the line has 3 columns, the header 2"),
+        ("speed_rpm,order_2\n800,1\n,1\n", "bad.csv:3: a speed is missing"),
         ("speed_rpm,order_2\n800,1\n", "two speeds at least"),
-        ("speed_rpm,order_2\n900,1\n800,1\n", "ascending"),
-        ("speed_rpm,order_2\n800,1\n900,-1\n", "an amplitude is negative"),
+        ("speed_rpm,order_2\n900,1\n800,1\n", "bad.csv:3: the speeds must ascend"),
+        ("speed_rpm,order_2\n800,1\n900,-1\n", "bad.csv:3: an amplitude is negative"),
         ("speed_rpm,order_11\n800,1\n900,1\n", "has orders 11, the campaign 1, 2,"),
     ),
 )

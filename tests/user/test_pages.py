@@ -81,7 +81,7 @@ COMPUTED = ("", "")
 # What follows from gears, shaft and oil and is no key.
 DRAWING = {"base_radius_1": "m", "base_radius_2": "m"}
 DRAWING |= {"working_pressure_angle": "deg", "base_helix_angle": "deg"}
-DRAWING |= {"contact_ratio": "", "overlap_ratio": ""}
+DRAWING |= {"profile_shift_sum": "", "contact_ratio": "", "overlap_ratio": ""}
 METHODS = {"newmark": "Newmark's method as in the paper, with steps of equal length"}
 METHODS["taylor"] = "series in time with controlled errors; the steps follow the motion"
 

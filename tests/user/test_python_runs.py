@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import gc
+import tempfile
+import warnings
 from pathlib import Path
 
 import campaign_runs
@@ -208,6 +210,67 @@ def test_extreme_rows_stand_where_their_times_are():
     assert len(frame) == result.row_count + result.extremes["time"].size
     assert frame.time.is_monotonic_increasing
     assert frame.acceleration.max() == result.extremes["acceleration"].max()
+
+
+def test_keys_are_set_by_group_or_with_it(file):
+    nested = rattle.run(file, set={"load": {"mass": 2.5, "gravity": 0.0}, "solver.periods": 4}).result
+    assert [nested.value(*key) for key in (("load", "mass"), ("load", "gravity"), ("solver", "periods"))] == [
+        2.5,
+        0.0,
+        4,
+    ]
+    with pytest.raises(rattle.InputError, match="unknown key; the nearest known key is mass"):
+        rattle.run(file, set={"load": {"mas": 2.5}})
+    with pytest.raises(
+        TypeError, match=r"set\['gear'\] has to be a dict of keys: several pairs are 'gear\(1\)'"
+    ):
+        rattle.run(file, set={"gear": [{"backlash": 1e-4}]})
+
+
+GEAR = {"teeth_1": 19, "teeth_2": 37, "normal_module": 2.2e-3, "helix_angle_deg": 28.0, "face_width": 0.016}
+GEAR |= {"centre_distance": 0.070, "loose_inertia": 8.9e-4, "backlash": 9e-5, "drag_torque": 0.1}
+BOX = {
+    "gear": [{"name": "near", **GEAR}, {"name": "far", **GEAR, "backlash": 0.09}],
+    "shaft": {"speed_rpm": 800.0, "orders": 2.0, "accelerations": 600.0},
+    "oil": {"viscosity_40_cst": 58.0, "viscosity_100_cst": 9.6, "temperature_celsius": 50.0},
+    "film": {"law": "iso-viscous", "model": "reynolds"},
+    "solver": {"periods": 4, "starts": 1},
+    "spectrum": {"periods": 1, "verify": False},
+}
+
+
+def test_what_is_odd_about_an_input_is_a_python_warning():
+    """Here the number of the second pair: once, at the line of the caller, with its place."""
+    with pytest.warns(rattle.InputWarning, match="it would be 9.000E-5 m if it was meant in mm") as warned:
+        box = rattle.run(BOX)
+    (one,) = warned
+    assert one.filename == __file__
+    fault = one.message.fault
+    assert (fault.group, fault.key) == ("gear", "backlash")
+    assert fault.line == rattle.solve.text_of(BOX).split("\n").index("   backlash = 0.09") + 1
+    again = rattle.solve.text_of(box["far"].result.input)
+    assert again.count("&gear\n") == 1 and "backlash = 0.09" in again
+    # Set in both it is told once.
+    with pytest.warns(rattle.InputWarning) as warned:
+        rattle.run(BOX, set={"gear": {"backlash": 0.08}})
+    assert len(warned) == 1 and warned[0].message.fault.file == "--set gear.backlash=0.08"
+
+
+@pytest.mark.parametrize("task", ("campaign", "threshold", "sweep"))
+def test_every_task_warns_and_a_warning_may_be_an_error(task, monkeypatch, tmp_path):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    pair = {**BOX, "gear": BOX["gear"][1], "solver": {"periods": 4}, "spectrum": {"periods": 1}}
+    arguments = {
+        "campaign": ({"gear.drag_torque": [0.05, 0.2]},),
+        "threshold": ("gear.drag_torque", 0.05, 0.2),
+        "sweep": ("force_scale", 0.9, 1.0),
+    }
+    counted = {} if task == "campaign" else {"count": 2}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(rattle.InputWarning, match="0.09 m is not what machines have"):
+            getattr(rattle, task)(pair, *arguments[task], **counted)
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ import pytest
 from script_calls import called_here
 
 import rattle as package
+from rattle.codes import QUANTITIES
 
 INPUT = """&gear
    teeth_1 = 19, teeth_2 = 37, normal_module = 2.2e-3, helix_angle_deg = 28.0, face_width = 0.016
@@ -97,6 +98,62 @@ def test_the_design_fills_its_ranges(run, tmp_path: Path) -> None:
         assert high >= values.max() > high - 0.2 * (high - low)
     # Half of what is spread by its logarithm lies below the geometric mean.
     assert np.mean(np.array(campaign["gear.drag_scale"]) < 1.0) == pytest.approx(0.5, abs=0.1)
+
+
+def test_size_means_scenes_and_is_told_before(tmp_path: Path) -> None:
+    """size = 64 has room for 8 blocks of 5 scenes; --blocks comes before it; without both there are 256."""
+    for more, arguments, blocks in (
+        ("size = 64", (), 8),
+        ("size = 10, seed = 7", (), 2),
+        ("size = 64", ("--blocks", 4), 4),
+        ("", (), 256),
+    ):
+        write(tmp_path, f"sample = 'sobol', {more}\n" if more else "")
+        code, said, complained = called_here(
+            "sensitivity.py", "design", "pair.nml", "--overwrite", *arguments, cwd=tmp_path
+        )
+        assert code == 0, complained
+        assert f"{blocks} blocks of 5 scenes for 3 keys: {5 * blocks} scenes\n" in complained
+        assert len((tmp_path / "pair.design.csv").read_text().splitlines()) == 1 + 5 * blocks
+        seed = 7 if "seed" in more else 1
+        assert f"{blocks} blocks, seed {seed}," in (tmp_path / "pair_design.nml").read_text()
+    write(tmp_path, "sample = 'sobol', size = 9\n")
+    code, _, complained = called_here("sensitivity.py", "design", "pair.nml", cwd=tmp_path)
+    assert code == 2 and "write size = 10 at least, or give --blocks" in complained
+
+
+def test_the_scenes_of_all_pairs_are_told(repository: Path, tmp_path: Path) -> None:
+    path = tmp_path / "box.nml"
+    path.write_text((repository / "input" / "gearbox_tolerances.nml").read_text())
+    code, _, complained = called_here("sensitivity.py", "design", path, "--blocks", 2, cwd=tmp_path)
+    assert code == 0
+    assert "2 blocks of 7 scenes for 5 keys: 14 scenes of each of 4 pairs, 56 in all" in complained
+
+
+def test_a_report_has_the_indices_with_their_intervals(run, tmp_path: Path) -> None:
+    """The same numbers as those that the script prints; other campaigns have no such part."""
+    result = designed(run, tmp_path, 16)
+    _, said, _ = called_here("sensitivity.py", result, cwd=tmp_path)
+    code, _, complained = called_here("report.py", result, "--output", "page.html", cwd=tmp_path)
+    assert code == 0, complained
+    page = (tmp_path / "page.html").read_text()
+    part = page[page.index("Which keys matter") :]
+    for quantity in ("film_force_rms", "inertia_ratio"):
+        rows = part[part.index(QUANTITIES[quantity].meaning) :]
+        for key, (first, first_error, total, total_error) in table_of(said, quantity).items():
+            cells = re.findall(r"<td[^>]*>([^<]*)</td>", rows[rows.index(f"<code>{key}</code>") :])[:4]
+            assert [float(cell) for cell in cells[::2]] == [first, total]
+            for cell, value, half in zip(
+                cells[1::2], (first, total), (first_error, total_error), strict=True
+            ):
+                low, high = map(float, cell.split(" to "))
+                assert (low + high) / 2.0 == pytest.approx(value, abs=1e-3)
+                assert (high - low) / 2.0 == pytest.approx(half, abs=1.1e-3)
+    assert "share of the variance" in part.lower() and "<svg" in part
+    write(tmp_path, "sample = 'sobol', size = 4, record = 'verdict'\n")
+    run("--set", "scene.task='campaign'", "pair.nml", cwd=tmp_path)
+    assert called_here("report.py", "results/pair.rattle", "--output", "other.html", cwd=tmp_path)[0] == 0
+    assert "Which keys matter" not in (tmp_path / "other.html").read_text()
 
 
 def test_the_probability_is_the_share_of_independent_scenes(run, tmp_path: Path) -> None:

@@ -1,10 +1,11 @@
 !> Ranks of an MPI job. Work is handed out by a counter on rank 0 that every rank can reach by itself.
 module ranks
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
-   use, intrinsic :: iso_fortran_env, only: error_unit
    use errors, only: error_t
    use kinds, only: dp, int64
    use mpi_f08
+   use text_output, only: put_error_line
+   use unplanned_end, only: plan_end
    implicit none(type, external)
    private
 
@@ -54,8 +55,8 @@ contains
       !> Why
       type(error_t), intent(in) :: error
 
-      write (error_unit, '(a)') error%message
-      flush (error_unit)
+      call put_error_line(error%message)
+      call plan_end()
       call MPI_Abort(MPI_COMM_WORLD, error%exit_code)
    end subroutine abort_ranks
 

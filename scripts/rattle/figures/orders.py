@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 import re
 from argparse import ArgumentParser, Namespace
@@ -16,6 +15,7 @@ from matplotlib.figure import Figure
 import rattle
 from rattle import command
 from rattle.campaign_result import Campaign
+from rattle.csv_table import read_csv_table
 from rattle.figures import style
 from rattle.figures.campaign_look import cell_edges, headline
 from rattle.figures.spectra import LEVEL_LABEL, REFERENCE
@@ -27,7 +27,9 @@ DESCRIPTION = (
 )
 SPEED = "shaft.speed_rpm"
 MOST_CURVES = 4
-ORDER_COLUMN = re.compile(r"order_([\d.]+)")
+# Measured cuts: a head as it may be, and the units that are needed.
+HEAD, PER_MINUTE, ACCELERATION = "speed_rpm,order_2", "1/min", "m/s2"
+ORDER_COLUMN = re.compile(r"order_(\d+(?:\.\d*)?)")
 
 
 @dataclass(frozen=True)
@@ -52,7 +54,8 @@ def add_options(parser: ArgumentParser) -> None:
         "--measured",
         type=Path,
         metavar="FILE.csv",
-        help="measured cuts: columns speed_rpm and order_O with amplitudes of order O [m/s2], as in order_2",
+        help="measured cuts: columns speed_rpm and order_O with amplitudes of order O, as in order_2 [m/s2]; "
+        "other units of speed and acceleration are converted",
     )
 
 
@@ -99,30 +102,33 @@ def computed(campaign: Campaign) -> Cuts:
 
 def read_measured(path: Path) -> Cuts:
     """Measured order cuts; an empty field is a gap."""
-    with path.open(newline="", encoding="utf-8-sig") as stream:
-        rows = [row for row in csv.reader(stream) if any(field.strip() for field in row)]
-    head = [name.strip() for name in rows[0]] if rows else []
-    orders = [ORDER_COLUMN.fullmatch(name) for name in head[1:]]
-    if head[:1] != ["speed_rpm"] or not orders or not all(orders):
-        raise command.CommandError(
-            f"{path}: the head has to be speed_rpm,order_O,... as in speed_rpm,order_2."
-        )
-    numbers = []
-    for place, row in enumerate(rows[1:], 2):
-        try:
-            if len(row) != len(head):
-                raise ValueError
-            numbers.append([float(field) if field.strip() else math.nan for field in row])
-        except ValueError:
+    table = read_csv_table(path, HEAD)
+    speeds, columns = None, {}
+    for place, name in enumerate(table.names):
+        bare, unit = table.name_of(place, PER_MINUTE)
+        found = ORDER_COLUMN.fullmatch(table.name_of(place, ACCELERATION)[0])
+        if found and float(found[1]) not in columns:
+            columns[float(found[1])] = table.column(place, ACCELERATION)
+        elif speeds is None and bare == "speed" and unit:
+            speeds = table.column(place, PER_MINUTE)
+        else:
             raise command.CommandError(
-                f"{path}, row {place}: '{','.join(row)}' is not {len(head)} numbers or empty fields."
-            ) from None
-    table = np.array(numbers, dtype=float).reshape(-1, len(head))
-    if len(table) < 2 or not np.all(np.diff(table[:, 0]) > 0.0):
-        raise command.CommandError(f"{path} needs two speeds at least, ascending.")
-    if np.any(table[:, 1:] < 0.0):
-        raise command.CommandError(f"{path}: an amplitude is negative.")
-    return Cuts(table[:, 0], tuple(float(found[1]) for found in orders if found), table[:, 1:])
+                f"{path}:{table.header}: column {place + 1} ({name}) is neither the speed nor an order, "
+                f"or stands there twice; the head has to be {HEAD},..."
+            )
+    if speeds is None or not columns:
+        raise command.CommandError(f"{path}:{table.header}: the head has to be {HEAD},...")
+    amplitudes = np.column_stack(list(columns.values()))
+    for wrong, words in (
+        (~np.isfinite(speeds), "a speed is missing"),
+        (np.diff(speeds, prepend=-np.inf) <= 0.0, "the speeds must ascend"),
+        (np.any(amplitudes < 0.0, axis=1), "an amplitude is negative"),
+    ):
+        if wrong.any():
+            raise command.CommandError(f"{path}:{table.lines[np.argmax(wrong)]}: {words}.")
+    if len(speeds) < 2:
+        raise command.CommandError(f"{path} needs two speeds at least.")
+    return Cuts(speeds, tuple(columns), amplitudes)
 
 
 def comparison(name: str, cuts: Cuts, measured: Cuts) -> list[str]:

@@ -64,31 +64,18 @@ _SETTINGS = {
     "figure.constrained_layout.use": True,
     "figure.constrained_layout.w_pad": 0.1,  # inches; room for the last tick label
     "figure.constrained_layout.h_pad": 0.06,
-    "svg.hashsalt": "rattle",
     "pdf.fonttype": 42,
 }
-_SIZES = ("axes.titlesize", "axes.labelsize", "xtick.labelsize", "ytick.labelsize", "legend.fontsize")
 
 
 @contextmanager
-def house_style(*, own: bool = True) -> Iterator[None]:
-    """The settings of this module over Matplotlib's; the user's matplotlibrc over both, if wanted."""
+def house_style(salt: str = "rattle") -> Iterator[None]:
+    """The settings of this module over Matplotlib's own, whatever else is set; names in SVG follow `salt`."""
     with matplotlib.rc_context():
-        matplotlib.rcdefaults()
-        matplotlib.rcParams.update(_SETTINGS)
-        if own:
-            matplotlib.rcParams.update(own_settings())
+        # Not rcdefaults, which reads the style files of the user.
+        defaults = {name: value for name, value in matplotlib.rcParamsDefault.items() if name != "backend"}
+        matplotlib.rcParams.update(defaults | _SETTINGS | {"svg.hashsalt": salt})
         yield
-
-
-def own_settings() -> dict[str, object]:
-    """What the user's matplotlibrc sets; with a size of type also the sizes here that follow from it."""
-    path = Path(matplotlib.matplotlib_fname())
-    if Path(matplotlib.get_data_path()) in path.parents:
-        return {}
-    found = dict(matplotlib.rc_params_from_file(path, fail_on_error=False, use_default_template=False))
-    factor = float(found.get("font.size", _SETTINGS["font.size"])) / _SETTINGS["font.size"]
-    return {name: factor * _SETTINGS[name] for name in _SIZES} | found
 
 
 def run_line(position: int) -> dict[str, object]:

@@ -10,10 +10,10 @@ from rattle.campaign_result import Campaign
 from rattle.codes import QUANTITIES, spoken, words_of
 from rattle.figures import campaign_look as look
 from rattle.figures import film, film_points
-from rattle.report import asked, campaign, motion, page, sweep, threshold
+from rattle.report import asked, campaign, motion, page, sensitivity, sweep, threshold
 from rattle.result import MOTIONS_ENDING, Result, read
 from rattle.result_file import ResultFile
-from rattle.summary import Summary, comparison_table, read_summary
+from rattle.summary import Summary, comparison_table, input_warnings, read_summary
 
 ABOUT = (
     "A loose gear pair, shaken by the engine, hammers through its oil film. This page says {what}, and how "
@@ -194,7 +194,7 @@ def threshold_part(result: Result) -> Parts:
 
 def campaign_part(result: Campaign) -> Parts:
     seen, others = campaign.figures(result)
-    parts = [*campaign.verdict(result), *seen, *campaign.numbers(result)]
+    parts = [*campaign.verdict(result), *sensitivity.part(result), *seen, *campaign.numbers(result)]
     folds = page.fold("What was varied", [campaign.keys_table(result)])
     folds += page.fold("What the classes mean", campaign.meanings(result))
     folds += page.fold("More pictures", others)
@@ -269,7 +269,7 @@ def odd_numbers_of(box: Summary, summaries: Sequence[Summary]) -> list[str]:
     for summary in summaries:
         gear = str(summary.get("gear", "")).strip()
         if gear in box["gears"] and str(summary["name"]).strip() == f"{box['name']}.{gear}":
-            for line in motion.warnings_of(summary):
+            for line in input_warnings(summary):
                 about.setdefault(line, []).append(gear)
     lines = [
         line if len(gears) == len(box["gears"]) else f"Gear {', '.join(gears)}: {line}"

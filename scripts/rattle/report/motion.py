@@ -12,7 +12,7 @@ from rattle.keys import unit_of
 from rattle.report import page
 from rattle.result import Result
 from rattle.result_file import ResultFile
-from rattle.summary import RESULTS, Summary, read_summary
+from rattle.summary import RESULTS, Summary, input_warnings, read_summary
 from rattle.verdict import forced
 
 SHOWN_PERIODS = 4
@@ -145,12 +145,7 @@ def summary_of(result: ResultFile) -> Summary | None:
 
 def odd_numbers(result: ResultFile) -> list[str]:
     """What the program found odd about the input, as numbers that were surely meant in another unit."""
-    return notes_on(warnings_of(summary_of(result) or {}))
-
-
-def warnings_of(summary: Summary) -> list[str]:
-    warnings = summary.get("input_warnings", [])
-    return [warnings] if isinstance(warnings, str) else list(warnings)
+    return notes_on(input_warnings(summary_of(result) or {}))
 
 
 def notes_on(lines: Iterable[str]) -> list[str]:

@@ -7,17 +7,18 @@ import re
 from collections.abc import Callable, Sequence
 from html import escape
 from io import StringIO
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import matplotlib
 import numpy as np
-from matplotlib.figure import Figure
 
 from rattle.command import CommandError, words_of_import
 from rattle.figures import style
 from rattle.figures.fit import shrink
 from rattle.result import ResultError
 from rattle.rounding import ERROR_DIGITS, stated_error
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 # Units in which numbers are read more easily: from which size on, factor and name, the largest first.
 STEPS = {
@@ -295,7 +296,7 @@ def ranges(rows: Sequence[tuple[str, str, str, np.ndarray]]) -> str:
 def drawing(draw: Callable[[], Figure], caption: str, salt: str) -> str:
     """A figure with its caption, or the sentence that says why it cannot be drawn."""
     try:
-        with style.house_style(own=False), matplotlib.rc_context({"svg.hashsalt": salt}):
+        with style.house_style(salt):
             stream = StringIO()
             figure = draw()
             shrink(figure, WIDTH)
