@@ -110,8 +110,9 @@ def test_a_contact_ratio_below_one_is_warned_of(check) -> None:
     """Short tips of a spur pair, of a helical one whose overlap keeps it in mesh, and of one too narrow for that."""
     (warning,), found, _ = check(*SPUR, "gear.tip_diameter_1=0.0406", "gear.tip_diameter_2=0.0606")
     assert found["contact_ratio"] == pytest.approx(0.28447253, rel=1e-7) and found["overlap_ratio"] == 0.0
-    assert f"the transverse contact ratio is {found['contact_ratio']:.3f}: below 1 the pair does not transmit continuously" in (
-        warning
+    assert (
+        f"the transverse contact ratio is {found['contact_ratio']:.3f}: below 1 the pair does not transmit continuously"
+        in (warning)
     )
     tips = ("gear.tip_diameter_1=0.034", "gear.tip_diameter_2=0.1095")
     (warning,), found, _ = check(*tips)
@@ -120,7 +121,10 @@ def test_a_contact_ratio_below_one_is_warned_of(check) -> None:
     assert f"by the overlap of the helix alone, in all {total:.2f}" in warning
     (warning,), found, _ = check(*tips, "gear.face_width=0.004")
     total = found["contact_ratio"] + found["overlap_ratio"]
-    assert f"with the overlap of the helix {total:.3f}: below 1 the pair does not transmit continuously" in warning
+    assert (
+        f"with the overlap of the helix {total:.3f}: below 1 the pair does not transmit continuously"
+        in warning
+    )
     warnings, found, _ = check(*SPUR, "gear.tip_diameter_1=0.044", "gear.tip_diameter_2=0.064")
     assert not warnings and found["contact_ratio"] > 1.5
 
@@ -129,16 +133,26 @@ def test_odd_teeth_are_warned_of(check) -> None:
     spur = SPUR[:4]
     for settings, words in (
         (("gear.tip_diameter_1=0.0476", "gear.tip_diameter_2=0.0632"), "is pointed below this tip"),
-        (("gear.tip_diameter_1=0.0472", "gear.tip_diameter_2=0.0632"), " normal modules thick, and usual are 0.2 at least"),
-        (("gear.tip_diameter_1=0.0425", "gear.tip_diameter_2=0.0655"), "is undercut: it takes a profile shift of -0.34 at least"),
+        (
+            ("gear.tip_diameter_1=0.0472", "gear.tip_diameter_2=0.0632"),
+            " normal modules thick, and usual are 0.2 at least",
+        ),
+        (
+            ("gear.tip_diameter_1=0.0425", "gear.tip_diameter_2=0.0655"),
+            "is undercut: it takes a profile shift of -0.34 at least",
+        ),
     ):
         warnings, _, faults = check(*spur, *settings)
         assert not faults and any(words in warning for warning in warnings), (words, warnings)
     high = ("gear.teeth_1=60", "gear.teeth_2=60", "gear.tip_diameter_1=0.1262", "gear.tip_diameter_2=0.1262")
-    (warning,), _, _ = check("gear.helix_angle_deg=0", "gear.normal_module=2e-3", *high, "gear.pressure_angle_deg=15")
+    (warning,), _, _ = check(
+        "gear.helix_angle_deg=0", "gear.normal_module=2e-3", *high, "gear.pressure_angle_deg=15"
+    )
     assert "make addenda of 1.55 normal modules" in warning and "touch these tips" in warning
     (warning,), _, _ = check("gear.contact_position=0.006")
-    assert warning.endswith("&gear contact_position: teeth as high as usual do not touch there: it lies beyond a tip")
+    assert warning.endswith(
+        "&gear contact_position: teeth as high as usual do not touch there: it lies beyond a tip"
+    )
 
 
 def test_ends_of_what_is_varied_are_looked_at(check) -> None:
@@ -193,7 +207,9 @@ def computed_drag() -> str:
 
 def of_parts() -> str:
     """A drag of a plain bearing and a synchroniser."""
-    more = "bearing_width = 0.02, bearing_clearance = 3e-5, synchroniser_cones = 1, synchroniser_diameter = 0.06"
+    more = (
+        "bearing_width = 0.02, bearing_clearance = 3e-5, synchroniser_cones = 1, synchroniser_diameter = 0.06"
+    )
     cone = "synchroniser_width = 0.008, synchroniser_gap = 2e-4"
     return computed_drag().replace("backlash", f"{more}, {cone}\n   backlash")
 
@@ -253,4 +269,6 @@ def test_every_length_of_a_gear_is_looked_at(check) -> None:
             *(f"{key}={value}" for key, value in ({f"{group}.{name}": "50"} | settings).items()),
             text=PAIR if settings else of_parts(),
         )
-        assert any(f"&{group} {name}" in words and "meant in" in words for words in (*warnings, *faults)), name
+        assert any(f"&{group} {name}" in words and "meant in" in words for words in (*warnings, *faults)), (
+            name
+        )

@@ -9,7 +9,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from outcomes import assert_no_crash, contents, summary_of
+from outcomes import contents, summary_of
 from test_edited_inputs import TASKS
 from waiting import until
 
@@ -23,7 +23,9 @@ SUBSETS = [subset for size in range(4) for subset in itertools.combinations(DESC
 def by_shell(rattle: Path, tmp_path: Path):
     """Call the program by a shell, after some words of it and with some redirections."""
 
-    def call(before: str, *arguments: str, after: str = "", **environment: str) -> subprocess.CompletedProcess:
+    def call(
+        before: str, *arguments: str, after: str = "", **environment: str
+    ) -> subprocess.CompletedProcess:
         return subprocess.run(
             ["bash", "-c", f'{before or ":"} && exec "$0" "$@" {after}', rattle, *arguments],
             cwd=tmp_path,
@@ -62,7 +64,9 @@ def test_closed_descriptors_change_no_file(task: str, by_shell, scene_text, tmp_
 
 
 @pytest.mark.parametrize("option", ["--help", "--version", "--template", "--keys", "--check"])
-def test_what_is_only_printed_is_lost_without_an_output(option: str, by_shell, scene_text, tmp_path: Path) -> None:
+def test_what_is_only_printed_is_lost_without_an_output(
+    option: str, by_shell, scene_text, tmp_path: Path
+) -> None:
     (tmp_path / "scene.nml").write_text(scene_text())
     ended = by_shell("", option, *(["scene.nml"] if option == "--check" else []), after=">&-")
     assert ended.returncode == 3
@@ -99,7 +103,9 @@ def test_too_few_files_are_the_reason_told(task: str, by_shell, scene_text, tmp_
 
 
 @pytest.mark.parametrize(("kilobytes", "exit_code"), [(128, 3), (1023, 3), (1024, 0), ("unlimited", 0)])
-def test_the_stack_of_the_program(kilobytes: int | str, exit_code: int, by_shell, scene_text, tmp_path: Path) -> None:
+def test_the_stack_of_the_program(
+    kilobytes: int | str, exit_code: int, by_shell, scene_text, tmp_path: Path
+) -> None:
     (tmp_path / "scene.nml").write_text(TASKS["campaign"](scene_text))
     ended = by_shell(f"ulimit -S -s {kilobytes}", "--quiet", "--threads", "2", "scene.nml")
     assert ended.returncode == exit_code, ended.stderr
@@ -147,7 +153,9 @@ def test_threads_that_do_not_start(by_shell, scene_text, tmp_path: Path) -> None
     ended = by_shell("ulimit -v 4000000", "--threads", "2", "scene.nml", OMP_STACKSIZE="100G")
     assert ended.returncode == 3
     assert "Thread creation failed" in ended.stderr
-    assert ended.stderr.splitlines()[-1].startswith("the system refused what the program needs, see the line above")
+    assert ended.stderr.splitlines()[-1].startswith(
+        "the system refused what the program needs, see the line above"
+    )
 
 
 # --- environments ----------------------------------------------------------------------------------------
@@ -265,7 +273,10 @@ def test_quiet_campaigns_count_their_failures(run, scene_text, tmp_path: Path) -
     campaign = {"vary": "'film.initial_velocity'", "first": "-1.0e3", "last": "0.0", "count": "2"}
     solver = {"method": "'taylor'", "steps_per_period": None, "tolerance": None}
     text = scene_text(
-        scene={"task": "'campaign'"}, solver=solver, **OVERFLOW, campaign={**campaign, "record": "'film_minimum'"}
+        scene={"task": "'campaign'"},
+        solver=solver,
+        **OVERFLOW,
+        campaign={**campaign, "record": "'film_minimum'"},
     )
     (tmp_path / "scene.nml").write_text(text)
     ended = run("--quiet", "scene.nml", cwd=tmp_path)
