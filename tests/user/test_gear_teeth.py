@@ -1,4 +1,4 @@
-"""Teeth that a pair can have: profile shifts, tips, contact ratios, against ISO 21771 with 30 digits; units before geometry."""
+"""Teeth that a pair can have, against ISO 21771 with 30 digits; units before geometry."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def check(run, tmp_path: Path):
 
 
 def iso_21771(z: tuple[int, int], module: str, helix: str, distance: str) -> tuple[mpf, mpf]:
-    """Sum of the profile shifts, and the contact ratio of tips shortened by k m_n, half of the sum on both."""
+    """Sum of the profile shifts, and contact ratio of tips shortened by k m_n, half of the sum on both."""
     m_n, beta, alpha_n, a = mpf(module), mpf(helix) * pi / 180, pi / 9, mpf(distance)
     m_t, alpha_t = m_n / cos(beta), atan(tan(alpha_n) / cos(beta))
     r = [m_t * teeth / 2 for teeth in z]
@@ -92,7 +92,7 @@ def test_no_contact_ratio_is_larger_than_teeth_have(distance: str, check) -> Non
     """Tips that were not shortened had 3.35 at 0.100 m."""
     warnings, found, _ = check(f"gear.centre_distance={distance}")
     angle = acos(mpf("0.0646340987009336") / mpf(distance))
-    # Racks whose teeth are pointed on both sides have 1/(2 sin(alpha)**2), and gears less; none more than their line of action.
+    # Racks with pointed teeth have 1/(2 sin(alpha)**2), gears less; none more than their line of action.
     assert found["contact_ratio"] < min(1 / (2 * sin(angle) ** 2), 49 * tan(angle) / (2 * pi))
     beyond = [words for words in warnings if "profile shifts that add up to" in words]
     assert len(beyond) == (float(distance) > 0.074)
@@ -107,12 +107,11 @@ def test_gears_too_far_apart_or_too_close_are_refused(check) -> None:
 
 
 def test_a_contact_ratio_below_one_is_warned_of(check) -> None:
-    """Short tips of a spur pair, of a helical one whose overlap keeps it in mesh, and of one too narrow for that."""
+    """Short tips: of a spur pair, of a helical one with overlap enough, of one too narrow for that."""
     (warning,), found, _ = check(*SPUR, "gear.tip_diameter_1=0.0406", "gear.tip_diameter_2=0.0606")
     assert found["contact_ratio"] == pytest.approx(0.28447253, rel=1e-7) and found["overlap_ratio"] == 0.0
-    assert f"the transverse contact ratio is {found['contact_ratio']:.3f}: below 1 the pair does not transmit continuously" in (
-        warning
-    )
+    said = f"the transverse contact ratio is {found['contact_ratio']:.3f}: below 1 the pair does not "
+    assert f"{said}transmit continuously" in warning
     tips = ("gear.tip_diameter_1=0.034", "gear.tip_diameter_2=0.1095")
     (warning,), found, _ = check(*tips)
     total = found["contact_ratio"] + found["overlap_ratio"]
@@ -120,7 +119,10 @@ def test_a_contact_ratio_below_one_is_warned_of(check) -> None:
     assert f"by the overlap of the helix alone, in all {total:.2f}" in warning
     (warning,), found, _ = check(*tips, "gear.face_width=0.004")
     total = found["contact_ratio"] + found["overlap_ratio"]
-    assert f"with the overlap of the helix {total:.3f}: below 1 the pair does not transmit continuously" in warning
+    assert (
+        f"with the overlap of the helix {total:.3f}: below 1 the pair does not transmit continuously"
+        in warning
+    )
     warnings, found, _ = check(*SPUR, "gear.tip_diameter_1=0.044", "gear.tip_diameter_2=0.064")
     assert not warnings and found["contact_ratio"] > 1.5
 
@@ -129,16 +131,26 @@ def test_odd_teeth_are_warned_of(check) -> None:
     spur = SPUR[:4]
     for settings, words in (
         (("gear.tip_diameter_1=0.0476", "gear.tip_diameter_2=0.0632"), "is pointed below this tip"),
-        (("gear.tip_diameter_1=0.0472", "gear.tip_diameter_2=0.0632"), " normal modules thick, and usual are 0.2 at least"),
-        (("gear.tip_diameter_1=0.0425", "gear.tip_diameter_2=0.0655"), "is undercut: it takes a profile shift of -0.34 at least"),
+        (
+            ("gear.tip_diameter_1=0.0472", "gear.tip_diameter_2=0.0632"),
+            " normal modules thick, and usual are 0.2 at least",
+        ),
+        (
+            ("gear.tip_diameter_1=0.0425", "gear.tip_diameter_2=0.0655"),
+            "is undercut: it takes a profile shift of -0.34 at least",
+        ),
     ):
         warnings, _, faults = check(*spur, *settings)
         assert not faults and any(words in warning for warning in warnings), (words, warnings)
     high = ("gear.teeth_1=60", "gear.teeth_2=60", "gear.tip_diameter_1=0.1262", "gear.tip_diameter_2=0.1262")
-    (warning,), _, _ = check("gear.helix_angle_deg=0", "gear.normal_module=2e-3", *high, "gear.pressure_angle_deg=15")
+    (warning,), _, _ = check(
+        "gear.helix_angle_deg=0", "gear.normal_module=2e-3", *high, "gear.pressure_angle_deg=15"
+    )
     assert "make addenda of 1.55 normal modules" in warning and "touch these tips" in warning
     (warning,), _, _ = check("gear.contact_position=0.006")
-    assert warning.endswith("&gear contact_position: teeth as high as usual do not touch there: it lies beyond a tip")
+    assert warning.endswith(
+        "&gear contact_position: teeth as high as usual do not touch there: it lies beyond a tip"
+    )
 
 
 def test_ends_of_what_is_varied_are_looked_at(check) -> None:
@@ -164,12 +176,12 @@ def test_log_and_summary_tell_shifts_and_ratios(run, tmp_path: Path) -> None:
 
 
 def test_units_come_before_geometry(check) -> None:
-    """A module in millimetres beside a centre distance in metres: the unit is what is wrong, not the distance."""
+    """A module in millimetres beside a centre distance in metres: the unit is wrong, not the distance."""
     text = PAIR.replace("2.5e-3", "2.5, centre_distance = 0.070")
     _, _, (fault,) = check(text=text)
     assert fault == (
-        "pair.nml:4: &gear normal_module: 2.5 m is not what machines have (3.0E-4 to 0.05 m); it would be 0.002500 m "
-        "if it was meant in mm"
+        "pair.nml:4: &gear normal_module: 2.5 m is not what machines have (3.0E-4 to 0.05 m); "
+        "it would be 0.002500 m if it was meant in mm"
     )
     # All of them, and what is wrong beside them; the width alone would be a warning.
     _, _, faults = check("gear.contact_position=0.5", "gear.face_width=16", text=text)
@@ -193,7 +205,9 @@ def computed_drag() -> str:
 
 def of_parts() -> str:
     """A drag of a plain bearing and a synchroniser."""
-    more = "bearing_width = 0.02, bearing_clearance = 3e-5, synchroniser_cones = 1, synchroniser_diameter = 0.06"
+    more = (
+        "bearing_width = 0.02, bearing_clearance = 3e-5, synchroniser_cones = 1, synchroniser_diameter = 0.06"
+    )
     cone = "synchroniser_width = 0.008, synchroniser_gap = 2e-4"
     return computed_drag().replace("backlash", f"{more}, {cone}\n   backlash")
 
@@ -253,4 +267,6 @@ def test_every_length_of_a_gear_is_looked_at(check) -> None:
             *(f"{key}={value}" for key, value in ({f"{group}.{name}": "50"} | settings).items()),
             text=PAIR if settings else of_parts(),
         )
-        assert any(f"&{group} {name}" in words and "meant in" in words for words in (*warnings, *faults)), name
+        assert any(f"&{group} {name}" in words and "meant in" in words for words in (*warnings, *faults)), (
+            name
+        )
