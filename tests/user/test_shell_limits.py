@@ -1,4 +1,4 @@
-"""Bad starts by the shell: closed descriptors, too few files, small stacks, odd environments, and words while a run gets ready."""
+"""Bad starts by the shell: closed descriptors, few files, small stacks, environments, long looks."""
 
 from __future__ import annotations
 
@@ -111,8 +111,8 @@ def test_the_stack_of_the_program(
     assert ended.returncode == exit_code, ended.stderr
     if exit_code == 3:
         assert ended.stderr == (
-            f"the stack is limited to {kilobytes} kB (ulimit -s), and rattle takes 1024 kB; ulimit -s 8192 is "
-            "what is usual\n"
+            f"the stack is limited to {kilobytes} kB (ulimit -s), and rattle takes 1024 kB; "
+            "ulimit -s 8192 is what is usual\n"
         )
         assert not (tmp_path / "results").exists()
 
@@ -140,8 +140,8 @@ def test_the_stacks_of_threads(
         return
     assert ended.returncode == 3
     assert ended.stderr == (
-        f"rattle: a thread has a stack of {told} kB (OMP_STACKSIZE or GOMP_STACKSIZE), and rattle takes 1024 kB; "
-        "unset the variable, or set OMP_STACKSIZE=8M\n"
+        f"rattle: a thread has a stack of {told} kB (OMP_STACKSIZE or GOMP_STACKSIZE), and rattle takes "
+        "1024 kB; unset the variable, or set OMP_STACKSIZE=8M\n"
     )
     assert not (tmp_path / "results").exists()
     assert by_shell("", "--quiet", "--threads", "1", "scene.nml", **{variable: size}).returncode == 0
@@ -264,8 +264,8 @@ def test_quiet_failures_have_a_line(run, scene_text, tmp_path: Path) -> None:
     ended = run("--quiet", "good.nml", "bad.nml", cwd=tmp_path)
     assert (ended.returncode, ended.stdout) == (1, "")
     assert ended.stderr == (
-        "bad.nml: The film load exceeds every number that can be represented; the film law does not hold here. "
-        "results/bad.log has more\n"
+        "bad.nml: The film load exceeds every number that can be represented; the film law does not hold "
+        "here. results/bad.log has more\n"
     )
 
 
