@@ -18,6 +18,7 @@ LOAD = {"force_amplitude": None, "steady_force": "190.0"}
 FORCE_ORDERS = ((1, 150.0, 0.0), (2, 60.0, 0.7), (3, 25.0, -1.2))
 SHAFT_ORDERS = ((1.5, 120.0, 0.4), (2.0, 600.0, -1.0))
 SOLVER = {"method": "'taylor'", "steps_per_period": None, "periods": "4"}
+CUT_CYCLES = "cut whole cycles out: scripts/recording.py cycle.csv --cycle-revolutions 1"
 GEAR = """
 &gear
    teeth_1 = 11, teeth_2 = 38, normal_module = 2.5e-3, helix_angle_deg = 28.96, face_width = 0.016
@@ -109,13 +110,13 @@ WRONG = {
         load(spread(90, 1.5 * PERIOD), "time_s"),
         "0.0025 s",
         "0.001666667 s",
-        "cut whole cycles out: scripts/recording.py cycle.csv --cycle-revolutions 1 --speed-near 36000 --output",
+        f"{CUT_CYCLES} --speed-near 36000 --output",
     ),
     "a period and two thirds": (
         load(spread(90, 5 * PERIOD / 3), "time"),
         "0.002777778 s",
         "0.001666667 s",
-        "cut whole cycles out: scripts/recording.py cycle.csv --cycle-revolutions 1 --speed-near 36000 --output",
+        f"{CUT_CYCLES} --speed-near 36000 --output",
     ),
     "one sample less": (
         load(steps(89, PERIOD / 90), "time_s"),
@@ -127,7 +128,7 @@ WRONG = {
         load(steps(92, PERIOD / 90), "time_s"),
         "0.001703704 s",
         "0.001666667 s",
-        "cut whole cycles out: scripts/recording.py cycle.csv --cycle-revolutions 1 --speed-near 36000 --output",
+        f"{CUT_CYCLES} --speed-near 36000 --output",
     ),
     "its end repeats its start": (
         load(steps(91, PERIOD / 90), "t"),
@@ -145,7 +146,7 @@ WRONG = {
         load(spread(90, PERIOD * 90.6 / 90), "time_s"),
         "0.001677778 s",
         "0.001666667 s",
-        "cut whole cycles out: scripts/recording.py cycle.csv --cycle-revolutions 1 --speed-near 36000 --output",
+        f"{CUT_CYCLES} --speed-near 36000 --output",
     ),
     "milliseconds without a unit": (
         load(spread(90, 1e3 * PERIOD), "time"),
@@ -200,7 +201,7 @@ WRONG = {
         load(spread(900, 9.93 * PERIOD), "time_s", 10),
         "0.01655 s",
         "0.001666667 s",
-        "cut whole cycles out: scripts/recording.py cycle.csv --cycle-revolutions 1 --speed-near 36000 --output",
+        f"{CUT_CYCLES} --speed-near 36000 --output",
     ),
     "ten periods in 903 samples": (
         load(spread(903, 10 * PERIOD), "time_s", 10),

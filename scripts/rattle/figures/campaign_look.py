@@ -185,13 +185,13 @@ def doubt_patch(words: str, doubt: Doubt) -> Patch:
 
 
 def measured_speeds(campaign: Campaign) -> tuple[float, float] | None:
-    """Lowest and highest speed [1/min] for which the motion of the shaft was measured, where that is known."""
+    """Lowest and highest speed [1/min] for which the motion of the shaft was measured, where known."""
     ends = campaign.input.get("shaft", {}).get("signal_speed_range")
     return (float(ends[0]), float(ends[1])) if ends else None
 
 
 def draw_measured_speeds(axes: Axes, campaign: Campaign, keys: Mapping[str, str]) -> list[Line2D]:
-    """Dotted lines where the speeds end for which the motion was measured; `keys` of the axes by "x" and "y"."""
+    """Dotted lines at the ends of the measured speeds; `keys` of the axes by "x" and "y"."""
     ends = measured_speeds(campaign)
     along = [which for which, key in keys.items() if key == "shaft.speed_rpm"]
     if ends is None or not along:
