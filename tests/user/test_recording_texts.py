@@ -57,6 +57,7 @@ TEXTS = {
     "bars": "time_s|n_rpm\n" + rows("|"),
     "spreadsheet": "sep=;\ntime_s;n_rpm\n" + rows(";", ","),
     "lines of two cells above": "Date;28.11.2026\nEngine;M270\ntime_s;n_rpm\n" + rows(";", ","),
+    "unit of two words": "time_s,n_rad_s\n" + each(lambda t, n: f"{t:.4f},{n * np.pi / 30.0:.6f}"),
     "no unit of the time": "Zeit;n\n;1/min\n" + rows(";", ","),
     "no name of the time": "x,n_rpm\n" + rows(","),
 }
@@ -67,7 +68,7 @@ def test_a_text_of_a_bench(tmp_path: Path, name: str) -> None:
     path = tmp_path / "run.csv"
     path.write_bytes(TEXTS[name].encode())
     channels = recordings.read_channels(path)
-    (channel,) = (channel for channel in channels if channel.unit in ("rpm", "mrad/s"))
+    (channel,) = (channel for channel in channels if channel.unit in ("rpm", "rad/s", "mrad/s"))
     assert channel.has_time and len(channel.values) == 40
     np.testing.assert_allclose(channel.time - channel.time[0], TIME, atol=1e-9)
     np.testing.assert_allclose(channel.within("rpm"), SPEED, atol=2e-4)

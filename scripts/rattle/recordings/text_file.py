@@ -228,14 +228,15 @@ def _commented(layout: Layout, lines: Sequence[str]) -> list[str]:
 
 
 def _name_and_unit(head: str) -> tuple[str, str]:
-    """`speed [1/min]` and `speed (1/min)` are a name with a unit; of `speed_rpm` the end tells it."""
+    """`speed [1/min]` is a name with a unit; of `speed_rpm` and `speed_rad_s` the end says it."""
     if found := re.fullmatch(r"(.*?)\s*(?:\[([^\]]*)\]|\(([^)]*)\)|/ ?([^/]+(?:/[^/]+)?))", head):
         name, unit = found[1], found[2] or found[3] or found[4] or ""
         if found[2] is not None or units.is_known(unit):
             return name.strip() or head, units.plain(unit)
-    name, _, end = head.rpartition("_")
-    if name and units.is_known(end):
-        return head, units.plain(end)
+    words = head.split("_")
+    for end in ("/".join(words[-2:]), "".join(words[-2:]), words[-1]):
+        if len(words) > 1 and units.is_known(end):
+            return head, units.plain(end)
     return head, units.plain(head) if units.is_known(head) and units.plain(head) in ("rpm", "deg") else ""
 
 
