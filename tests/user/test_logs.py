@@ -74,12 +74,18 @@ FITTING = {
 RELATIVE = "relative to the shaft, along the line of action"
 
 
+def teeth_words(told: Mapping[str, Any]) -> str:
+    ratios = (f"{name} ratio {short(told[f'{name}_ratio'], 4)}" for name in ("contact", "overlap"))
+    return f"  profile shift sum {short(told['profile_shift_sum'], 3)}, {', '.join(ratios)}"
+
+
 def lines_of_motion(path: Path) -> list[str | None]:
     """The log of a motion, from its summary and its resolved input."""
     told, given = rattle.read_summary(path.with_suffix(".summary.nml")), rattle.read(path).input
     failed = told["status"] not in SUCCESSES
     return [
         f"rattle {told['program_version']}, scene {told['name']}: {LAWS[told['model'], told['law']]}",
+        teeth_words(told) if "gear" in given else None,
         start_of_motion(told),
         "  no natural frequency: small motions about the steady film are overdamped"
         if "steady_film" in told and "natural_frequency" not in told
