@@ -20,10 +20,9 @@ program main
    type(command_t) :: command
    type(fault_list_t) :: faults
    type(error_t), allocatable :: error
-   integer :: exit_code
+   integer :: exit_code = exit_complete
    logical :: output_is_closed
 
-   exit_code = exit_complete
    call reserve_standard_descriptors(output_is_closed)
    call watch_end()
    call expect_stack(error)
@@ -41,9 +40,8 @@ program main
       call put_line(usage_text())
    else if (command%version) then
       call put_line('rattle '//program_version)
-      call put_line('built '//parallel_words//', '//trim(merge('for registers of eight numbers', &
-                                                               'for registers of four numbers ', wide_registers))// &
-                    ', by '//compiler_version())
+      call put_line('built '//parallel_words//', for registers of '//trim(merge('eight', 'four ', wide_registers))// &
+                    ' numbers, by '//compiler_version())
    else if (command%template) then
       call put_text(template_of(command%template_name))
    else if (command%page) then
@@ -61,8 +59,7 @@ program main
       call run_all_tasks(command, exit_code)
    end if
    if (len(lost_text()) > 0) then
-      call put_error_line(lost_text()// &
-         ' could not be written; the disk may be full, it was taken away, or nobody reads any more')
+      call put_error_line(lost_text()//' could not be written; the disk may be full, it was taken away, or nobody reads any more')
       if (exit_code == exit_complete .or. exit_code == exit_scene_failed) exit_code = exit_system
    end if
    call plan_end()

@@ -230,6 +230,8 @@ contains
          usual = 'N cm'
       case ('knm')
          usual = 'kN m'
+      case default
+         continue
       end select
       select case (text)
       case ('Nm')
@@ -246,6 +248,8 @@ contains
          usual = 'Pa s'
       case ('mPas')
          usual = 'mPa s'
+      case default
+         continue
       end select
       if (index(usual, ' per ') > 0) usual = usual(:index(usual, ' per ') - 1)//'/'//usual(index(usual, ' per ') + 5:)
    end function usual_spelling

@@ -96,7 +96,8 @@ def test_what_is_dropped_is_told(run, folder: Path) -> None:
         (line,) = (
             line for line in (folder / "results" / "scene.log").read_text().splitlines() if "signal " in line
         )
-        assert f"'force': 90 samples; harmonics 1 to {last} are kept" in line
+        assert "'force': 90 samples; its head says no unit, N is taken;" in line
+        assert f"; harmonics 1 to {last} are kept" in line
         assert "its mean of 9.2" in line
         told = float(line.split(" are kept, ")[1].split(" % of its power is dropped")[0])
         assert told / 100.0 == pytest.approx(dropped, rel=0.1, abs=1e-25)
