@@ -294,7 +294,7 @@ def test_the_steps_of_a_period_are_bounded(run, repository: Path, tmp_path: Path
     assert ended.returncode == 1
     summary = summary_of(tmp_path / "results" / "drive_rattle.summary.nml")
     assert summary["status"] == "not_converged"
-    assert summary["steps"] < 1e5
+    assert summary["steps"] <= 1e5 + 1
 
 
 def test_the_steps_of_a_motion_are_bounded(run, scene_text, tmp_path: Path) -> None:
@@ -303,15 +303,15 @@ def test_the_steps_of_a_motion_are_bounded(run, scene_text, tmp_path: Path) -> N
         contact={"radius": "1.5e-6"},
         load={"force_amplitude": "240.0"},
         film={"model": "'published'"},
-        solver={"method": "'taylor'", "steps_per_period": None, "periods": "100", "accuracy": "1e-6"},
+        solver={"method": "'taylor'", "steps_per_period": None, "periods": "100", "accuracy": "1e-10"},
         spectrum={"periods": "2", "verify": ".false."},
     )
     (tmp_path / "scene.nml").write_text(text)
     assert run("--quiet", "scene.nml", cwd=tmp_path).returncode == 1
     summary = summary_of(tmp_path / "results" / "scene.summary.nml")
     assert summary["status"] == "not_converged"
-    assert 50 < summary["periods_solved"] < 100
-    assert 1e5 < summary["steps"] < 1e5 + 2500 * 101
+    assert 1 < summary["periods_solved"] < 100
+    assert 3e5 < summary["steps"] <= 3e5 + 4000 * 101 + 1e5
 
 
 def test_a_campaign_names_its_longest_scene(run, scene_text, tmp_path: Path) -> None:
