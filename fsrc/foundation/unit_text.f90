@@ -42,7 +42,7 @@ module unit_text
       symbol_t('degF', rankine, [0, 0, 0, 1, 0, 0, 0], zero=ice - 32.0_dp*rankine), &
       symbol_t('V', 1.0_dp, [0, 0, 0, 0, 1, 0, 0], 'kmu'), &
       symbol_t('A', 1.0_dp, [0, 0, 0, 0, 0, 1, 0], 'kmu'), &
-      symbol_t('rad', 1.0_dp, [0, 0, 0, 0, 0, 0, 1], 'mu'), &
+      symbol_t('rad', 1.0_dp, [0, 0, 0, 0, 0, 0, 1], 'kmu'), &
       symbol_t('deg', pi/180.0_dp, [0, 0, 0, 0, 0, 0, 1], 'm'), &
       symbol_t('rev', 2.0_dp*pi, [0, 0, 0, 0, 0, 0, 1]), &
       symbol_t('rpm', pi/30.0_dp, [0, 0, -1, 0, 0, 0, 1], 'k'), &

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 
@@ -132,6 +133,30 @@ def test_tables_as_people_write_them(call, tmp_path: Path) -> None:
     assert told["shaft.phases"] == 0.0
 
 
+def test_tables_in_other_units(call, tmp_path: Path) -> None:
+    """Speeds in Hz, temperatures in K, torques in N mm, angles in degrees; decimal commas, a row of units."""
+    drag = [[float(word) for word in row.split(",")] for row in DRAG_ROWS]
+    table(
+        tmp_path / "drag.csv",
+        "speed [Hz];temperature_K;torque\n;;N mm",
+        [f"{n / 60.0!r};{t + 273.15!r};{1e3 * q!r}".replace(".", ",") for n, t, q in drag],
+    )
+    run_up = [[float(word) for word in row.split(",")] for row in RUN_UP_ROWS]
+    table(
+        tmp_path / "run_up.csv",
+        "speed_rpm,acceleration_2 [krad/s2],phase_2_deg,acceleration_4 (rad/s2),phase_4",
+        [f"{n},{a / 1e3!r},{math.degrees(p)!r},{b},{q}" for n, a, p, b, q in run_up],
+    )
+    text = scene(TABULATED, RUN_UP)
+    told = call(text, "--check", settings=("shaft.speed_rpm=700",)).stdout.replace("krad", "rad")
+    assert derived(told)["gear.drag_torque"] == pytest.approx(0.08375, rel=1e-12)
+    (amplitudes,) = re.findall(r"^! derived: shaft.accelerations = (.*) rad/s2$", told, re.M)
+    assert [float(word) for word in amplitudes.split(",")] == pytest.approx([825.0, 115.0], rel=1e-14)
+    (phases,) = re.findall(r"^! derived: shaft.phases = (.*) rad$", told, re.M)
+    assert [float(word) for word in phases.split(",")] == pytest.approx([0.05, 3.07079632679], rel=1e-11)
+    assert "drag.csv: column 2 (temperature_K): its K are converted to degC" in told
+
+
 @pytest.mark.parametrize(
     ("head", "rows", "words"),
     [
@@ -162,6 +187,8 @@ def test_tables_as_people_write_them(call, tmp_path: Path) -> None:
             ["600,20,0,16", "600,60,0,05"],
             "drag.csv:2: the line has 4 columns, the header 3: decimal commas are read only where semicolons",
         ),
+        (DRAG_HEAD.replace(",", ";"), DRAG_ROWS, "drag.csv:2: the line has 1 columns, the header 3"),
+        (f"{DRAG_HEAD} [V]", DRAG_ROWS, "drag.csv:1: column 3 (torque [V]): it is in V; N m is needed"),
         (
             DRAG_HEAD,
             [r.replace(",", ";") for r in DRAG_ROWS],
