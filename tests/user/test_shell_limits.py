@@ -1,4 +1,4 @@
-"""Bad starts by the shell: closed descriptors, too few files, small stacks, odd environments, and words while a run gets ready."""
+"""Bad starts by the shell: closed descriptors, few files, small stacks, environments, long looks."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from outcomes import assert_no_crash, contents, summary_of
+from outcomes import contents, summary_of
 from test_edited_inputs import TASKS
 from waiting import until
 
@@ -23,7 +23,9 @@ SUBSETS = [subset for size in range(4) for subset in itertools.combinations(DESC
 def by_shell(rattle: Path, tmp_path: Path):
     """Call the program by a shell, after some words of it and with some redirections."""
 
-    def call(before: str, *arguments: str, after: str = "", **environment: str) -> subprocess.CompletedProcess:
+    def call(
+        before: str, *arguments: str, after: str = "", **environment: str
+    ) -> subprocess.CompletedProcess:
         return subprocess.run(
             ["bash", "-c", f'{before or ":"} && exec "$0" "$@" {after}', rattle, *arguments],
             cwd=tmp_path,
@@ -62,7 +64,9 @@ def test_closed_descriptors_change_no_file(task: str, by_shell, scene_text, tmp_
 
 
 @pytest.mark.parametrize("option", ["--help", "--version", "--template", "--keys", "--check"])
-def test_what_is_only_printed_is_lost_without_an_output(option: str, by_shell, scene_text, tmp_path: Path) -> None:
+def test_what_is_only_printed_is_lost_without_an_output(
+    option: str, by_shell, scene_text, tmp_path: Path
+) -> None:
     (tmp_path / "scene.nml").write_text(scene_text())
     ended = by_shell("", option, *(["scene.nml"] if option == "--check" else []), after=">&-")
     assert ended.returncode == 3
@@ -99,14 +103,16 @@ def test_too_few_files_are_the_reason_told(task: str, by_shell, scene_text, tmp_
 
 
 @pytest.mark.parametrize(("kilobytes", "exit_code"), [(128, 3), (1023, 3), (1024, 0), ("unlimited", 0)])
-def test_the_stack_of_the_program(kilobytes: int | str, exit_code: int, by_shell, scene_text, tmp_path: Path) -> None:
+def test_the_stack_of_the_program(
+    kilobytes: int | str, exit_code: int, by_shell, scene_text, tmp_path: Path
+) -> None:
     (tmp_path / "scene.nml").write_text(TASKS["campaign"](scene_text))
     ended = by_shell(f"ulimit -S -s {kilobytes}", "--quiet", "--threads", "2", "scene.nml")
     assert ended.returncode == exit_code, ended.stderr
     if exit_code == 3:
         assert ended.stderr == (
-            f"the stack is limited to {kilobytes} kB (ulimit -s), and rattle takes 1024 kB; ulimit -s 8192 is "
-            "what is usual\n"
+            f"the stack is limited to {kilobytes} kB (ulimit -s), and rattle takes 1024 kB; "
+            "ulimit -s 8192 is what is usual\n"
         )
         assert not (tmp_path / "results").exists()
 
@@ -134,8 +140,8 @@ def test_the_stacks_of_threads(
         return
     assert ended.returncode == 3
     assert ended.stderr == (
-        f"rattle: a thread has a stack of {told} kB (OMP_STACKSIZE or GOMP_STACKSIZE), and rattle takes 1024 kB; "
-        "unset the variable, or set OMP_STACKSIZE=8M\n"
+        f"rattle: a thread has a stack of {told} kB (OMP_STACKSIZE or GOMP_STACKSIZE), and rattle takes "
+        "1024 kB; unset the variable, or set OMP_STACKSIZE=8M\n"
     )
     assert not (tmp_path / "results").exists()
     assert by_shell("", "--quiet", "--threads", "1", "scene.nml", **{variable: size}).returncode == 0
@@ -147,7 +153,9 @@ def test_threads_that_do_not_start(by_shell, scene_text, tmp_path: Path) -> None
     ended = by_shell("ulimit -v 4000000", "--threads", "2", "scene.nml", OMP_STACKSIZE="100G")
     assert ended.returncode == 3
     assert "Thread creation failed" in ended.stderr
-    assert ended.stderr.splitlines()[-1].startswith("the system refused what the program needs, see the line above")
+    assert ended.stderr.splitlines()[-1].startswith(
+        "the system refused what the program needs, see the line above"
+    )
 
 
 # --- environments ----------------------------------------------------------------------------------------
@@ -245,10 +253,6 @@ def test_files_in_the_way_end_a_long_look(run, scene_text, tmp_path: Path) -> No
 OVERFLOW = {"film": {"law": "'piezo-viscous'", "initial_velocity": "-1.0e3"}}
 
 
-def failing(task: str, scene_text) -> str:
-    return TASKS[task](scene_text, **OVERFLOW)
-
-
 def test_quiet_failures_have_a_line(run, scene_text, tmp_path: Path) -> None:
     """Each failed scene, and none that succeeds."""
     (tmp_path / "bad.nml").write_text(scene_text(**OVERFLOW))
@@ -256,8 +260,8 @@ def test_quiet_failures_have_a_line(run, scene_text, tmp_path: Path) -> None:
     ended = run("--quiet", "good.nml", "bad.nml", cwd=tmp_path)
     assert (ended.returncode, ended.stdout) == (1, "")
     assert ended.stderr == (
-        "bad.nml: The film load exceeds every number that can be represented; the film law does not hold here. "
-        "results/bad.log has more\n"
+        "bad.nml: The film load exceeds every number that can be represented; the film law does not hold "
+        "here. results/bad.log has more\n"
     )
 
 
@@ -265,7 +269,10 @@ def test_quiet_campaigns_count_their_failures(run, scene_text, tmp_path: Path) -
     campaign = {"vary": "'film.initial_velocity'", "first": "-1.0e3", "last": "0.0", "count": "2"}
     solver = {"method": "'taylor'", "steps_per_period": None, "tolerance": None}
     text = scene_text(
-        scene={"task": "'campaign'"}, solver=solver, **OVERFLOW, campaign={**campaign, "record": "'film_minimum'"}
+        scene={"task": "'campaign'"},
+        solver=solver,
+        **OVERFLOW,
+        campaign={**campaign, "record": "'film_minimum'"},
     )
     (tmp_path / "scene.nml").write_text(text)
     ended = run("--quiet", "scene.nml", cwd=tmp_path)
@@ -276,31 +283,22 @@ def test_quiet_campaigns_count_their_failures(run, scene_text, tmp_path: Path) -
 # --- work without end ------------------------------------------------------------------------------------
 
 
-def test_the_steps_of_a_period_are_bounded(run, repository: Path, tmp_path: Path) -> None:
-    """A mass of a grain of sand between two flanks under no load: half a million oscillations a period."""
-    settings = ["--set", "load.mass=1.3e-9", "--set", "load.steady_force=1e-55"]
-    ended = run("--quiet", *settings, repository / "input" / "drive_rattle.nml", cwd=tmp_path)
-    assert ended.returncode == 1
-    summary = summary_of(tmp_path / "results" / "drive_rattle.summary.nml")
-    assert summary["status"] == "not_converged"
-    assert summary["steps"] < 1e5
-
-
+@pytest.mark.long
 def test_the_steps_of_a_motion_are_bounded(run, scene_text, tmp_path: Path) -> None:
-    """A flank of a micrometre: no period takes too many steps, all together do before the last."""
+    """A flank of half a micrometre: no period takes too many steps, all together do before the last."""
     text = scene_text(
-        contact={"radius": "1.5e-6"},
+        contact={"radius": "5e-7"},
         load={"force_amplitude": "240.0"},
         film={"model": "'published'"},
-        solver={"method": "'taylor'", "steps_per_period": None, "periods": "100", "accuracy": "1e-6"},
+        solver={"method": "'taylor'", "steps_per_period": None, "periods": "200", "accuracy": "1e-6"},
         spectrum={"periods": "2", "verify": ".false."},
     )
     (tmp_path / "scene.nml").write_text(text)
     assert run("--quiet", "scene.nml", cwd=tmp_path).returncode == 1
     summary = summary_of(tmp_path / "results" / "scene.summary.nml")
     assert summary["status"] == "not_converged"
-    assert 50 < summary["periods_solved"] < 100
-    assert 1e5 < summary["steps"] < 1e5 + 2500 * 101
+    assert 100 < summary["periods_solved"] < 200
+    assert 3e5 < summary["steps"] < 3e5 + 4000 * 201
 
 
 def test_a_campaign_names_its_longest_scene(run, scene_text, tmp_path: Path) -> None:
