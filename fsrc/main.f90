@@ -27,16 +27,14 @@ program main
    call reserve_standard_descriptors(output_is_closed)
    call watch_end()
    call expect_stack(error)
+   if (allocated(error)) call faults%add_error('rattle', '', '', error)
    if (.not. allocated(error)) call read_arguments(command, faults)
    if (command%template .and. len(template_of(command%template_name)) == 0) &
       call faults%add('--template', 0, command%template_name, '', &
                       'unknown group; the nearest known group is &'//nearest_group(command%template_name))
-   if (allocated(error)) then
-      call put_error_line(error%message)
-      exit_code = error%exit_code
-   else if (faults%count() > 0) then
+   if (faults%count() > 0) then
       call print_faults(faults)
-      exit_code = exit_bad_input
+      exit_code = faults%exit_code
    else if (command%help) then
       call put_line(usage_text())
    else if (command%version) then

@@ -111,7 +111,7 @@ def test_the_stack_of_the_program(
     assert ended.returncode == exit_code, ended.stderr
     if exit_code == 3:
         assert ended.stderr == (
-            f"the stack is limited to {kilobytes} kB (ulimit -s), and rattle takes 1024 kB; "
+            f"rattle: the stack is limited to {kilobytes} kB (ulimit -s), and rattle takes 1024 kB; "
             "ulimit -s 8192 is what is usual\n"
         )
         assert not (tmp_path / "results").exists()
