@@ -504,6 +504,7 @@ def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, change
             "motion parts for good (rattle_class)"
             if open_ended
             else None,
+            f"  the longest: scene {ANY}, {ANY} steps",
             *files(path),
         ],
     )
