@@ -11,7 +11,6 @@ program main
    use lane_rows, only: wide_registers
    use ready_inputs, only: ready_input
    use run_tasks, only: run_all_tasks
-   use signals, only: catch_signals
    use stack, only: expect_stack
    use text_output, only: lost_text, put_error_line, put_line, put_text
    use unplanned_end, only: plan_end, watch_end
@@ -55,7 +54,6 @@ program main
    else
       ! Who closes the standard output wants no words of a run; what --check prints is lost.
       command%quiet = command%quiet .or. (output_is_closed .and. .not. command%check)
-      call catch_signals()
       call run_all_tasks(command, exit_code)
    end if
    if (len(lost_text()) > 0) then

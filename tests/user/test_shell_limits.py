@@ -248,6 +248,53 @@ def test_files_in_the_way_end_a_long_look(run, scene_text, tmp_path: Path) -> No
     assert contents(tmp_path) == before
 
 
+# --- signals while the program waits ---------------------------------------------------------------------
+
+SIGNALS = [signal.SIGTERM, signal.SIGINT, signal.SIGHUP]
+
+
+@pytest.mark.parametrize("number", SIGNALS, ids=lambda number: number.name)
+@pytest.mark.parametrize("place", ["pipe", "standard input"])
+def test_a_signal_ends_the_waiting_for_an_input(
+    place: str, number: signal.Signals, rattle: Path, tmp_path: Path
+) -> None:
+    os.mkfifo(tmp_path / "scene.nml")
+    end = os.open(tmp_path / "scene.nml", os.O_RDWR)
+    argument = "scene.nml" if place == "pipe" else "-"
+    process = subprocess.Popen([rattle, argument], cwd=tmp_path, stdin=end)
+    # Asleep in the call that reads.
+    until(lambda: Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()[0] == "S", process)
+    process.send_signal(number)
+    assert process.wait() == -number
+    os.close(end)
+    assert [path.name for path in tmp_path.iterdir()] == ["scene.nml"]
+
+
+@pytest.mark.parametrize("number", SIGNALS, ids=lambda number: number.name)
+def test_a_signal_ends_the_waiting_for_a_reader(
+    number: signal.Signals, rattle: Path, scene_text, tmp_path: Path
+) -> None:
+    """Nobody reads the standard output, and the pipe is full; what was lost is said."""
+    (tmp_path / "scene.nml").write_text(TASKS["campaign"](scene_text))
+    reader, writer = os.pipe()
+    os.set_blocking(writer, False)
+    with pytest.raises(BlockingIOError):
+        while True:
+            os.write(writer, b" " * 4096)
+    os.set_blocking(writer, True)
+    command = [rattle, "--threads", "1", "scene.nml"]
+    process = subprocess.Popen(command, cwd=tmp_path, stdout=writer, stderr=subprocess.PIPE, text=True)
+    # The log is there, its first line not yet: it goes to the terminal first.
+    until((tmp_path / "results" / "scene.log").exists, process)
+    process.send_signal(number)
+    words = process.communicate()[1]
+    os.close(reader)
+    os.close(writer)
+    assert process.returncode == 128 + number
+    assert words.startswith("the standard output could not be written")
+    assert not (tmp_path / "results" / "scene.lock").exists()
+
+
 # --- failures --------------------------------------------------------------------------------------------
 
 OVERFLOW = {"film": {"law": "'piezo-viscous'", "initial_velocity": "-1.0e3"}}
