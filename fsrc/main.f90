@@ -11,7 +11,6 @@ program main
    use lane_rows, only: wide_registers
    use ready_inputs, only: ready_input
    use run_tasks, only: run_all_tasks
-   use signals, only: catch_signals
    use stack, only: expect_stack
    use text_output, only: lost_text, put_error_line, put_line, put_text
    use unplanned_end, only: plan_end, watch_end
@@ -26,16 +25,14 @@ program main
    call reserve_standard_descriptors(output_is_closed)
    call watch_end()
    call expect_stack(error)
+   if (allocated(error)) call faults%add_error('rattle', '', '', error)
    if (.not. allocated(error)) call read_arguments(command, faults)
    if (command%template .and. len(template_of(command%template_name)) == 0) &
       call faults%add('--template', 0, command%template_name, '', &
                       'unknown group; the nearest known group is &'//nearest_group(command%template_name))
-   if (allocated(error)) then
-      call put_error_line(error%message)
-      exit_code = error%exit_code
-   else if (faults%count() > 0) then
+   if (faults%count() > 0) then
       call print_faults(faults)
-      exit_code = exit_bad_input
+      exit_code = faults%exit_code
    else if (command%help) then
       call put_line(usage_text())
    else if (command%version) then
@@ -55,7 +52,6 @@ program main
    else
       ! Who closes the standard output wants no words of a run; what --check prints is lost.
       command%quiet = command%quiet .or. (output_is_closed .and. .not. command%check)
-      call catch_signals()
       call run_all_tasks(command, exit_code)
    end if
    if (len(lost_text()) > 0) then

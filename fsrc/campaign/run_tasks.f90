@@ -11,7 +11,7 @@ module run_tasks
    use run_threshold, only: threshold_task_t
    use scene_reader, only: read_scenes
    use scene_types, only: is_shared_task, scene_t, task_threshold
-   use signals, only: caught_signal
+   use signals, only: catch_signals, caught_signal
    use stack, only: expect_stacks_of_threads
    use table_task, only: check_table_task, run_table_task, table_task_t
    use text, only: integer_text
@@ -53,6 +53,8 @@ contains
             call append(scenes, pairs)
          end if
       end do
+      ! While it waits for an input, a pipe perhaps, a signal ends the program.
+      call catch_signals()
       if (is_foreign_job()) call faults%add('rattle', 0, '', '', 'a launcher started several copies of this program, which was '// &
                                             'built without MPI: each would do all the work. MPI=1 make builds it with MPI')
       threads = omp_get_max_threads()

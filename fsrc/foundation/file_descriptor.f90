@@ -1,9 +1,10 @@
 !> Open files by their descriptors: what is interrupted by a signal is repeated, what is done in part is carried
 !> on, and every failure is seen; last_error then says why. Thin calls of the C library.
 module file_descriptor
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_null_char, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_null_char, c_short, c_size_t
    use errors, only: interrupted_call, invalid_call, last_error
    use kinds, only: int64
+   use signals, only: caught_signal
    implicit none(type, external)
    private
 
@@ -14,7 +15,25 @@ module file_descriptor
    !> Bits that say how a file is opened, as Linux has them.
    integer(c_int), parameter :: write_only = 1, make_missing = 64, only_new = 128, follow_no_link = 131072, name_only = 2097152
 
+   !> What a pipe takes without waiting once it takes anything [bytes]
+   integer(int64), parameter :: pipe_bytes = 4096_int64
+   integer(c_short), parameter :: can_be_written = 4_c_short
+
+   !> What poll is asked.
+   type, bind(c) :: poll_t
+      integer(c_int) :: descriptor
+      integer(c_short) :: events, found
+   end type poll_t
+
    interface
+      function c_poll(files, count, milliseconds) bind(c, name='poll') result(ready)
+         import :: c_int, c_long, poll_t
+         type(poll_t), intent(inout) :: files
+         integer(c_long), value :: count
+         integer(c_int), value :: milliseconds
+         integer(c_int) :: ready
+      end function c_poll
+
       function c_open(path, flags, mode) bind(c, name='open') result(descriptor)
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
@@ -194,7 +213,10 @@ contains
 
       done = 0_int64
       do while (done < count)
-         if (present(offset)) then
+         if (descriptor <= standard_error) then
+            if (.not. takes_bytes(descriptor)) exit
+            part = c_write(descriptor, bytes(done + 1_int64:), int(min(pipe_bytes, count - done), c_size_t))
+         else if (present(offset)) then
             part = c_pwrite(descriptor, bytes(done + 1_int64:), int(count - done, c_size_t), int(offset + done, c_long))
          else
             part = c_write(descriptor, bytes(done + 1_int64:), int(count - done, c_size_t))
@@ -209,5 +231,23 @@ contains
       end do
       complete = done == count
    end subroutine write_bytes
+
+   !> Wait until a standard descriptor takes bytes. Where nobody reads, a signal ends the waiting.
+   logical function takes_bytes(descriptor)
+      integer(c_int), intent(in) :: descriptor
+      !> A signal may come between the look at it and the waiting [ms]
+      integer(c_int), parameter :: longest_wait = 500_c_int
+      type(poll_t) :: file
+      integer(c_int) :: ready
+
+      do
+         file = poll_t(descriptor, can_be_written, 0_c_short)
+         ready = c_poll(file, 1_c_long, merge(0_c_int, longest_wait, caught_signal() /= 0))
+         takes_bytes = ready > 0
+         ! What cannot be waited for is for the writing to fail at.
+         if (ready < 0) takes_bytes = last_error() /= interrupted_call
+         if (takes_bytes .or. caught_signal() /= 0) return
+      end do
+   end function takes_bytes
 
 end module file_descriptor

@@ -13,7 +13,7 @@ module stack
    !> thread whose stack nobody limits.
    integer(int64), parameter :: needed_bytes = 2_int64**20
    integer(c_int), parameter :: limit_of_stack = 3
-   !> More than the settings of a thread take on any machine
+   !> More than the properties of a thread take on any machine
    integer, parameter :: attribute_words = 32
 
    public :: expect_stack, expect_stacks_of_threads
@@ -31,23 +31,23 @@ module stack
          integer(c_long) :: thread
       end function c_pthread_self
 
-      function c_pthread_getattr_np(thread, settings) bind(c, name='pthread_getattr_np') result(stat)
+      function c_pthread_getattr_np(thread, properties) bind(c, name='pthread_getattr_np') result(stat)
          import :: c_int, c_long
          integer(c_long), value :: thread
-         integer(c_long), intent(inout) :: settings(*)
+         integer(c_long), intent(inout) :: properties(*)
          integer(c_int) :: stat
       end function c_pthread_getattr_np
 
-      function c_pthread_attr_getstacksize(settings, bytes) bind(c, name='pthread_attr_getstacksize') result(stat)
+      function c_pthread_attr_getstacksize(properties, bytes) bind(c, name='pthread_attr_getstacksize') result(stat)
          import :: c_int, c_long, c_size_t
-         integer(c_long), intent(in) :: settings(*)
+         integer(c_long), intent(in) :: properties(*)
          integer(c_size_t), intent(out) :: bytes
          integer(c_int) :: stat
       end function c_pthread_attr_getstacksize
 
-      function c_pthread_attr_destroy(settings) bind(c, name='pthread_attr_destroy') result(stat)
+      function c_pthread_attr_destroy(properties) bind(c, name='pthread_attr_destroy') result(stat)
          import :: c_int, c_long
-         integer(c_long), intent(inout) :: settings(*)
+         integer(c_long), intent(inout) :: properties(*)
          integer(c_int) :: stat
       end function c_pthread_attr_destroy
    end interface
@@ -84,15 +84,15 @@ contains
 
    !> Stack of this thread [bytes]; what is not known is enough.
    integer(int64) function own_stack()
-      integer(c_long) :: settings(attribute_words)
+      integer(c_long) :: properties(attribute_words)
       integer(c_size_t) :: bytes
       integer(c_int) :: ignored
 
       own_stack = needed_bytes
-      settings = 0_c_long
-      if (c_pthread_getattr_np(c_pthread_self(), settings) /= 0) return
-      if (c_pthread_attr_getstacksize(settings, bytes) == 0) own_stack = int(bytes, int64)
-      ignored = c_pthread_attr_destroy(settings)
+      properties = 0_c_long
+      if (c_pthread_getattr_np(c_pthread_self(), properties) /= 0) return
+      if (c_pthread_attr_getstacksize(properties, bytes) == 0) own_stack = int(bytes, int64)
+      ignored = c_pthread_attr_destroy(properties)
    end function own_stack
 
    pure function kilobytes(bytes) result(words)
