@@ -330,6 +330,16 @@ def test_quiet_campaigns_count_their_failures(run, scene_text, tmp_path: Path) -
 # --- work without end ------------------------------------------------------------------------------------
 
 
+def test_the_steps_of_a_period_are_bounded(run, repository: Path, tmp_path: Path) -> None:
+    """A mass of a grain of sand between two flanks under no load: half a million oscillations a period."""
+    settings = ["--set", "load.mass=1.3e-9", "--set", "load.steady_force=1e-55"]
+    ended = run("--quiet", *settings, repository / "input" / "drive_rattle.nml", cwd=tmp_path)
+    assert ended.returncode == 1
+    summary = summary_of(tmp_path / "results" / "drive_rattle.summary.nml")
+    assert summary["status"] == "not_converged"
+    assert summary["steps"] <= 1e5 + 1
+
+
 @pytest.mark.long
 def test_the_steps_of_a_motion_are_bounded(run, scene_text, tmp_path: Path) -> None:
     """A flank of half a micrometre: no period takes too many steps, all together do before the last."""
