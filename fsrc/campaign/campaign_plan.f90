@@ -24,7 +24,7 @@ module campaign_plan
    !> Invalid scenes that are named one by one
    integer, parameter :: most_named = 20
 
-   !> Is told how far the look at the scenes of a campaign is.
+   !> Gets a report of how far the look at the scenes of a campaign is.
    type, abstract, public :: look_watcher_t
       !> Whether there is a reason to look no further
       logical :: is_refused = .false.

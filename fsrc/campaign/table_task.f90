@@ -90,7 +90,7 @@ module table_task
          logical, intent(in) :: hurried
          !> Faults are appended
          type(fault_list_t), intent(inout) :: faults
-         !> Is told how far the look at the scenes is
+         !> Gets a report of how far the look at the scenes is
          class(look_watcher_t), optional, intent(inout) :: watcher
       end subroutine prepare_table
 

@@ -132,7 +132,7 @@ contains
          end if
       end do
       ! Names of what is no table of numbers are nobody's business.
-      if (.not. table%has_numbers()) list = ', which cannot be told: the line below is no line of as many numbers'
+      if (.not. table%has_numbers()) list = ', which are not known: the line below is no line of as many numbers'
       if (len(column) == 0 .and. size(table%names) == 1) then
          chosen = 1
          axis = 0
@@ -209,7 +209,7 @@ contains
             message = 'the samples are not uniform'
             if (recording%last_digit > most_rounding*step .and. step > 0.0_dp) &
                message = message//' (or the axis has too few digits to show it)'
-            ! Where steps grow or one is missing, the line is off everywhere: the worst step is told.
+            ! Where steps grow or one is missing, the line is off everywhere: the worst step is reported.
             if (.not. all(axis(2:) > axis(:n - 1)) .or. maxval(off) > allowed) &
                i = maxloc(abs(axis(2:) - axis(:n - 1) - step), dim=1) + 1
          end if

@@ -1,5 +1,5 @@
 !> Samples of a recording that what is around them contradicts: spikes of one or two samples, and runs at another level, as an instrument
-!> that drops out leaves them. What is usual is told by medians and counts, which the samples in question do not move.
+!> that drops out leaves them. What is usual follows from medians and counts, which the samples in question do not move.
 module signal_outliers
    use kinds, only: dp
    implicit none(type, external)

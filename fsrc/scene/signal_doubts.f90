@@ -48,7 +48,7 @@ contains
       allocate (runs, source=find_runs(recording%samples, length, kind >= kind_speed))
       allocate (stops(0))
       if (kind >= kind_speed) stops = stops_of_speed(recording%samples)
-      ! What stops is told once.
+      ! What stops is reported once.
       spikes = pack(spikes, [(.not. any(stops%first <= spikes(i)%first .and. spikes(i)%first <= stops%last), i=1, size(spikes))])
       runs = pack(runs, [(.not. any(stops%first <= runs(i)%first .and. runs(i)%first <= stops%last), i=1, size(runs))])
       call add(stops, 'reaches')

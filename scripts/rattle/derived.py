@@ -42,9 +42,9 @@ def derived(input: Input, *, gear: str | None = None, set: Mapping[str, Any] | N
     return pairs[names.index(gear)]
 
 
-def _values(told: str) -> dict[str, str]:
+def _values(comments: str) -> dict[str, str]:
     found, group = {}, ""
-    for line in told.splitlines():
+    for line in comments.splitlines():
         if line.startswith("&"):
             group = line[1:].strip()
         elif match := _DERIVED.match(line):

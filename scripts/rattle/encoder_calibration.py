@@ -52,35 +52,35 @@ def is_encoders(path: Path) -> bool:
 def read_encoders(path: Path) -> dict[str, Any]:
     """What 'recording.py encoders' wrote."""
     try:
-        told = json.loads(path.read_text(encoding="utf-8"))
+        recorded = json.loads(path.read_text(encoding="utf-8"))
     except ValueError as fault:
         raise CommandError(f"{path} is no file of 'recording.py encoders': {fault}.") from None
-    if not isinstance(told, dict) or told.get("form") != FORM:
+    if not isinstance(recorded, dict) or recorded.get("form") != FORM:
         raise CommandError(f"{path} is no file of 'recording.py encoders': its form is not '{FORM}'.")
-    return told
+    return recorded
 
 
-def fit_encoders(input: Path, told: Mapping[str, Any], gear: str | None = None) -> EncoderFit:
+def fit_encoders(input: Path, recorded: Mapping[str, Any], gear: str | None = None) -> EncoderFit:
     """Backlash, and drag or inertia, with which the program moves as the encoders show."""
-    if not told["is_double_sided"]:
+    if not recorded["is_double_sided"]:
         raise CommandError(
             "The encoders show no impacts on both flanks: the backlash is more than "
-            f"{told['play']['value'] * 1e6:.3g} um; record a speed at which both are hit."
+            f"{recorded['play']['value'] * 1e6:.3g} um; record a speed at which both are hit."
         )
-    if told["drag_over_inertia"] is None:
+    if recorded["drag_over_inertia"] is None:
         raise CommandError("The encoders show no flights, from which drag over inertia could be fitted.")
     notes: list[str] = []
-    settings = measured_shaft(input, told, gear, notes)
+    settings = measured_shaft(input, recorded, gear, notes)
     start = derived(input, gear=gear, set=settings)
     if BACKLASH not in start:
         raise CommandError(f"{input}: the pair needs a backlash, from which the fit begins.")
     drag = "gear.drag_scale" if "gear.drag_scale" in start else "gear.drag_torque"
-    play, ratio = told["play"], told["drag_over_inertia"]
+    play, ratio = recorded["play"], recorded["drag_over_inertia"]
     inertia, torque = float(start[INERTIA]), float(start["gear.drag_torque"])
     values = {BACKLASH: float(start[BACKLASH]), drag: float(start[drag])}
     unit = torque / values[drag]  # N m of the drag for each of its key
     for _ in range(ROUNDS):
-        seen, lever = solved(input, settings | values, gear, told["step"], told["noise"])
+        seen, lever = solved(input, settings | values, gear, recorded["step"], recorded["noise"])
         if not seen.is_double_sided or seen.deceleration is None:
             raise CommandError(
                 f"With {_words(values)} the computed motion has no impacts on both flanks, as the measured "
@@ -111,15 +111,15 @@ def fit_encoders(input: Path, told: Mapping[str, Any], gear: str | None = None) 
         Fitted(BACKLASH, values[BACKLASH], _around(values[BACKLASH], half_play)),
         Fitted(drag, values[drag], _around(values[drag], half * inertia / unit)),
     )
-    return EncoderFit(fitted, comparison(told, seen), tuple(notes))
+    return EncoderFit(fitted, comparison(recorded, seen), tuple(notes))
 
 
 def measured_shaft(
-    input: Path, told: Mapping[str, Any], gear: str | None, notes: list[str]
+    input: Path, recorded: Mapping[str, Any], gear: str | None, notes: list[str]
 ) -> dict[str, Any]:
     """Keys by which an input moves as the driver did, in oil of the temperature that was noted."""
     given = derived(input, gear=gear)
-    shaft = told["shaft"]
+    shaft = recorded["shaft"]
     settings: dict[str, Any] = {"shaft.speed_rpm": shaft["speed_rpm"]}
     if "shaft.table" in given or "shaft.signal" in given:
         notes.append(
@@ -130,10 +130,10 @@ def measured_shaft(
     else:
         settings |= {f"shaft.{key}": list(shaft[key]) for key in ("orders", "accelerations", "phases")}
         settings["load.force_scale"] = 1.0
-    if told["temperature_celsius"] is None:
+    if recorded["temperature_celsius"] is None:
         notes.append("The encoders' file has no temperature: the oil is that of the input.")
     elif "oil.temperature_celsius" in given:
-        settings["oil.temperature_celsius"] = told["temperature_celsius"]
+        settings["oil.temperature_celsius"] = recorded["temperature_celsius"]
     return settings
 
 
@@ -173,12 +173,12 @@ def solved(
     return look(Motion(step, disturbed, np.interp(even, time, gear_way), even * frequency)), lever
 
 
-def comparison(told: Mapping[str, Any], seen: Flights) -> list[list[str]]:
+def comparison(recorded: Mapping[str, Any], seen: Flights) -> list[list[str]]:
     """What was measured of the impacts beside what the fitted input computes, which the fit did not use."""
     rows = [["", "measured", "computed"]]
     for side, flank in (("drive", seen.drive), ("coast", seen.coast)):
         for words, key, scale in COMPARED:
-            measured, computed = _value(told[f"{key}_{side}"]), _of(flank, key)
+            measured, computed = _value(recorded[f"{key}_{side}"]), _of(flank, key)
             rows.append([f"{words}, {side} flank", *(_shown(scale, value) for value in (measured, computed))])
     return rows
 
@@ -188,8 +188,8 @@ def _of(flank: Flank, key: str) -> float | None:
     return value if value is None or isinstance(value, float) else value.value
 
 
-def _value(told: Any) -> float | None:
-    return told["value"] if isinstance(told, dict) else told
+def _value(recorded: Any) -> float | None:
+    return recorded["value"] if isinstance(recorded, dict) else recorded
 
 
 def _shown(scale: float, value: float | None) -> str:

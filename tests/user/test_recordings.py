@@ -13,6 +13,7 @@ import pytest
 from script_calls import called_here
 
 from rattle import recordings
+from rattle.recordings import mending
 
 # What the orders of a recording may be off by: the aim is 0.5 % and 1 degree.
 AMPLITUDE, PHASE = 0.005, 1.0
@@ -408,3 +409,13 @@ def test_channels_of_several_files_of_one_clock(tmp_path: Path) -> None:
     code, said, complained = called_here("recording.py", "a.csv", "b.csv", *given, cwd=tmp_path)
     assert code == 0, complained
     assert re.search(r"^2 +150(\.0*[01])? ", said, re.M), said
+
+
+def test_long_times_between_samples_are_no_spikes() -> None:
+    """Of a smooth speed at random times: steps are as much larger where samples are farther apart."""
+    drawn = np.random.default_rng(5)
+    time = np.sort(drawn.uniform(0.0, 3.777, 19000))
+    speed = 812.7 + 14.0 * np.cos(170.0 * time) + 5.0 * np.cos(340.0 * time)
+    assert mending.odd_stretches(speed, time) == []
+    speed[9000] = 0.0
+    assert mending.odd_stretches(speed, time) == [(9000, 9000)]

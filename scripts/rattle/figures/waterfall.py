@@ -70,21 +70,21 @@ def run(options: Namespace) -> None:
 def read_waterfall(path: Path) -> tuple[Map, list[float]]:
     """The waterfall of a file, and the orders that were kept."""
     lines = path.read_text(encoding="utf-8", errors="surrogateescape").splitlines()
-    told = dict(re.findall(r"^# (kept|unit): (\S+)$", "\n".join(lines), re.MULTILINE))
+    described = dict(re.findall(r"^# (kept|unit): (\S+)$", "\n".join(lines), re.MULTILINE))
     rows = [line.split(",") for line in lines if line.strip() and not line.startswith("#")]
     head = [orders.ORDER_COLUMN.fullmatch(name) for name in (rows[0][1:] if rows else [])]
-    if len(rows) < 3 or rows[0][0] != "speed_rpm" or len(head) < 2 or not all(head) or len(told) != 2:
+    if len(rows) < 3 or rows[0][0] != "speed_rpm" or len(head) < 2 or not all(head) or len(described) != 2:
         raise command.CommandError(
             f"{path} is no waterfall; 'recording.py run-up' writes NAME.waterfall.csv beside its table."
         )
     try:
         numbers = np.array(rows[1:], dtype=float)
-        kept = [float(order) for order in told["kept"].split(",")]
+        kept = [float(order) for order in described["kept"].split(",")]
     except ValueError as fault:
         raise command.CommandError(f"{path} is no waterfall: {fault}.") from None
     columns = np.array([float(found[1]) for found in head if found])
     half = 0.5 * float(columns[1] - columns[0])
-    return Map(numbers[:, 0], columns, numbers[:, 1:], half, told["unit"]), kept
+    return Map(numbers[:, 0], columns, numbers[:, 1:], half, described["unit"]), kept
 
 
 def computed(campaign: rattle.Campaign) -> Map:

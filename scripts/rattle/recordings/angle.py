@@ -116,8 +116,7 @@ def angles_of(channel: Channel, shaft: ShaftAngle) -> tuple[np.ndarray, np.ndarr
         at = channel.time[known][int(np.argmin(np.diff(angle)))]
         raise RecordingError(
             f"{channel.source}: the angle of the shaft does not rise at {at:.6g} s; its tacho or angle "
-            "jitters "
-            "by more than a sample."
+            "jitters by more than a sample."
         )
     return angle, values
 
@@ -179,8 +178,7 @@ def _from_angle(channel: Channel, bridge: float, mend: bool, notes: list[str]) -
     if len(angle) < 4 or np.ptp(angle) == 0.0:
         raise RecordingError(
             f"{channel.source}: '{channel.name}' has {len(angle)} samples, all at {angle[:1]} rad; that "
-            "is no "
-            "angle of a shaft that turns."
+            "is no angle of a shaft that turns."
         )
     if np.median(np.sign(np.diff(angle))) < 0.0:
         notes.append(f"'{channel.name}' falls: the shaft is taken to turn the other way.")
@@ -249,8 +247,7 @@ def _from_speed(channel: Channel, bridge: float, mend: bool, notes: list[str]) -
         at = int(np.argmin(values))
         raise RecordingError(
             f"{channel.source}: '{channel.name}' is {own.values[at]:.4g} {units.shown(channel.unit)} at "
-            f"{time[at]:.6g} "
-            "s; an "
+            f"{time[at]:.6g} s; an "
             "angle needs a speed that keeps its sign; cut the recording, or let --mend replace drop-outs."
         )
     spline = interpolate.make_interp_spline(time, values, k=_degree(len(time)))
@@ -272,8 +269,7 @@ def _from_pulses(channel: Channel, teeth: int, missing: int, bridge: float) -> S
         if channel.unit and units.fits(channel.unit, unit):
             raise RecordingError(
                 f"{channel.source}: '{channel.name}' is in {channel.unit}, so it is no tacho; pulses are "
-                "in V or have "
-                "no unit."
+                "in V or have no unit."
             )
     notes: list[str] = []
     edges = rising_edges(channel)
@@ -318,8 +314,7 @@ def _from_pulses(channel: Channel, teeth: int, missing: int, bridge: float) -> S
     if teeth - missing < 8:
         notes.append(
             f"with {teeth} pulse{'s' if teeth > 1 else ''} a revolution what the speed does in between is "
-            "not seen: "
-            f"the angle follows orders below {0.5 * teeth:g} alone."
+            f"not seen: the angle follows orders below {0.5 * teeth:g} alone."
         )
     return _checked(ShaftAngle(edges, angle, notes, error, marked), channel)
 
@@ -372,8 +367,7 @@ def _without_extra(edges: np.ndarray, channel: Channel, notes: list[str]) -> np.
         if len(extra) > 0.1 * len(edges):
             raise RecordingError(
                 f"{channel.source}: {len(extra)} of {len(edges)} pulses of '{channel.name}' come too soon "
-                "behind "
-                "another; it is no tacho, or noise crosses its middle."
+                "behind another; it is no tacho, or noise crosses its middle."
             )
         several = f"{len(extra)} pulses" if len(extra) > 1 else "a pulse"
         notes.append(
@@ -430,8 +424,7 @@ def _tell_dropped(
     if dropped.size > 0.2 * len(counts):
         raise RecordingError(
             f"{channel.source}: {dropped.size} of {len(counts)} pulses of '{channel.name}' do not follow "
-            "each "
-            "other evenly; check --pulses and --missing."
+            "each other evenly; check --pulses and --missing."
         )
     notes.append(
         f"'{channel.name}' lacks {int(np.sum(counts[dropped] - 1))} pulses in {dropped.size} "

@@ -83,8 +83,8 @@ def read_channels(
     `notes`.
     """
     path = Path(path)
-    told = [] if notes is None else notes
-    found = READERS[_format(path)](path, told)
+    messages = [] if notes is None else notes
+    found = READERS[_format(path)](path, messages)
     channels: list[Channel] = []
     for raw in found:
         time, has_time = raw.time, raw.time is not None
@@ -96,7 +96,7 @@ def read_channels(
         if time is None:
             time = np.arange(len(raw.values)) / (rate or 1.0)
             has_time = rate is not None
-        kept = time_axis.settle(time, raw.values, raw.lines, f"{path}", told)
+        kept = time_axis.settle(time, raw.values, raw.lines, f"{path}", messages)
         channels.append(Channel(raw.name, units.plain(raw.unit), *kept, str(path), has_time))
     if not channels:
         raise RecordingError(f"{path} has no channel of numbers.")

@@ -144,8 +144,7 @@ def _shaft(
         return speed_search.steady_angle(signal, arguments.speed_near, arguments.cycle_revolutions)
     raise RecordingError(
         f"what turns '{signal.name}' into cycles? Name the channel of the shaft by --angle, --tacho (with "
-        "--pulses) "
-        "or --speed, or give --speed-near RPM and the speed is measured from the signal."
+        "--pulses) or --speed, or give --speed-near RPM and the speed is measured from the signal."
     )
 
 
@@ -180,8 +179,7 @@ def _over_angle(
         if not np.all(signal.values > 0.0):
             raise RecordingError(
                 f"{signal.source}: '{signal.name}' falls to {signal.values.min():.4g} 1/min; a shaft that "
-                "turns has a "
-                "speed above zero; --mend replaces drop-outs."
+                "turns has a speed above zero; --mend replaces drop-outs."
             )
         slowness = radian / signal.values
         time = integrate.cumulative_trapezoid(slowness, angle, initial=0.0)

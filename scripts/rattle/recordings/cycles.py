@@ -204,8 +204,7 @@ def _speed_of_shaft(shaft: ShaftAngle, length: float, wanted: int) -> _Record:
     if count < 2 * LEAST_SAMPLES:
         raise RecordingError(
             f"{count} pulses or angles in a cycle of {length / TURN:.0f} revolutions do not show what the "
-            "speed does "
-            f"within it; it takes {2 * LEAST_SAMPLES}."
+            f"speed does within it; it takes {2 * LEAST_SAMPLES}."
         )
     highest = _harmonics_that_fit(shaft.angle[fullest], length)
     samples = round(length / TURN) * wanted
@@ -368,8 +367,7 @@ def _notes(cycle: MeanCycle, record: _Record, slow: np.ndarray) -> list[str]:
     if np.ptp(slow) > 0.1 * np.std(cycle.values):
         notes.append(
             f"its mean drifts from {slow[0]:.6g} to {slow[-1]:.6g} {units.shown(cycle.unit)}; the drift "
-            "is taken out "
-            "of the cycles."
+            "is taken out of the cycles."
         )
     if cycle.cycles > 1:
         notes.append(f"the cycles differ from their mean by {100.0 * cycle.scatter:.3g} % of its rms.")
@@ -418,8 +416,7 @@ def _cause(rows: np.ndarray, revolutions: int, speeds: np.ndarray) -> str:
         if scatter_there < 0.5 * scatter:
             return (
                 f"with --cycle-revolutions {other} it would be {100.0 * scatter_there:.3g} %, so that is "
-                "rather "
-                "what a cycle is."
+                "rather what a cycle is."
             )
     if _drift(speeds) > DRIFT:
         return f"{_drift_words(speeds)}; take a --part, or recording.py run-up."
@@ -427,8 +424,7 @@ def _cause(rows: np.ndarray, revolutions: int, speeds: np.ndarray) -> str:
     if abs(slip) > 0.5:
         return (
             f"from cycle to cycle they shift by {slip * 360.0 * revolutions / rows.shape[1]:.3g} deg, so "
-            "the angle "
-            "is not that of the shaft: check --pulses and --missing, or the speed."
+            "the angle is not that of the shaft: check --pulses and --missing, or the speed."
         )
     return "neither its length nor the speed explains it; it is noise or unsteady, see +- of the orders."
 

@@ -87,7 +87,7 @@ def relative_motion(
         gear - along * geometry.driver * first,
         gear,
         first * period_order / (2.0 * math.pi),
-        # What turns with the force itself cannot be told from it.
+        # What turns with the force itself cannot be distinguished from it.
         tuple(
             angle for angle, order in ((first, 1.0), (second, ratio)) if not _is_multiple(order, period_order)
         ),
@@ -209,12 +209,12 @@ def run(arguments: argparse.Namespace) -> int:
         notes += [note for note in shafts[-1].notes if note not in notes]
     motion, shaft = relative_motion(*shafts, geometry, period_order, notes)
     found = look(motion)
-    told = as_dict(found, shaft, geometry, period_order, motion.step, arguments.temperature)
-    text = json.dumps(told, indent=2) + "\n"
+    recorded = as_dict(found, shaft, geometry, period_order, motion.step, arguments.temperature)
+    text = json.dumps(recorded, indent=2) + "\n"
     outputs.write(
         [(arguments.output, outputs.text_writer(text))], overwrite=arguments.overwrite, inputs=arguments.files
     )
-    print(table.plain(cells(told)))
+    print(table.plain(cells(recorded)))
     print(*notes, *words(found, shaft, period_order), arguments.output, sep="\n")
     return command.COMPLETE
 
@@ -267,7 +267,7 @@ def as_dict(
     """What is written, in SI units: estimates with value, interval low to high, scatter and count."""
     lever = geometry.loose * math.cos(geometry.helix)
     flown = found.deceleration
-    told = {
+    recorded = {
         "form": FORM,
         "confidence": CONFIDENCE,
         "temperature_celsius": temperature,
@@ -282,8 +282,8 @@ def as_dict(
         "noise": found.noise,
     }
     for name, flank in (("drive", found.drive), ("coast", found.coast)):
-        told |= {f"{key}_{name}": value for key, value in asdict(flank).items()}
-    return told
+        recorded |= {f"{key}_{name}": value for key, value in asdict(flank).items()}
+    return recorded
 
 
 def _scaled(estimate: Estimate, factor: float) -> Estimate:
@@ -291,11 +291,11 @@ def _scaled(estimate: Estimate, factor: float) -> Estimate:
     return Estimate(*numbers, estimate.count)
 
 
-def cells(told: dict[str, Any]) -> list[list[str]]:
+def cells(recorded: dict[str, Any]) -> list[list[str]]:
     """The estimates, as a table."""
     rows = [["", "value", f"{CONFIDENCE:.0%} interval", "scatter", "events"]]
     names = (
-        ("backlash less films [um]" if told["is_double_sided"] else "range of the gap [um]", "play", 1e6),
+        ("backlash less films [um]" if recorded["is_double_sided"] else "range of the gap [um]", "play", 1e6),
         ("drag over inertia [1/s2]", "drag_over_inertia", 1.0),
         ("approach to the drive flank [mm/s]", "velocity_drive", 1e3),
         ("approach to the coast flank [mm/s]", "velocity_coast", 1e3),
@@ -303,7 +303,7 @@ def cells(told: dict[str, Any]) -> list[list[str]]:
         ("restitution at the coast flank", "restitution_coast", 1.0),
     )
     for words, key, scale in names:
-        own = told[key]
+        own = recorded[key]
         if own is None:
             rows.append([words, "unknown", "", "", ""])
             continue
@@ -311,7 +311,7 @@ def cells(told: dict[str, Any]) -> list[list[str]]:
         rows.append([words, value, f"{low} to {high}", scatter, f"{own['count']}"])
     for side in ("drive", "coast"):
         rows.append(
-            [f"impacts a period, {side} flank", f"{told[f'impacts_per_period_{side}']:.4g}", "", "", ""]
+            [f"impacts a period, {side} flank", f"{recorded[f'impacts_per_period_{side}']:.4g}", "", "", ""]
         )
     return rows
 
@@ -319,20 +319,22 @@ def cells(told: dict[str, Any]) -> list[list[str]]:
 def words(found: Flights, shaft: Shaft, period_order: float) -> list[str]:
     """What the user should know of the numbers."""
     orders = ", ".join(f"{order:g}" for order in shaft.orders)
-    told = [
+    recorded = [
         f"{found.periods} periods of order {period_order:g} at {shaft.speed_rpm:.5g} 1/min; the driver has "
         f"order{'s' if len(shaft.orders) > 1 else ''} {orders}.",
         f"A drift of {found.drift * 1e6:.3g} um was taken off; the noise is {found.noise * 1e6:.3g} um.",
     ]
-    told.append("Impacts behind a flight of less than a fifth of the play are not counted.")
+    recorded.append("Impacts behind a flight of less than a fifth of the play are not counted.")
     if found.is_double_sided:
-        told.append("The backlash is larger by the oil films at contact, which no encoder sees.")
+        recorded.append("The backlash is larger by the oil films at contact, which no encoder sees.")
     else:
-        told.append("There are no impacts on both flanks: the backlash is larger than the range of the gap.")
+        recorded.append(
+            "There are no impacts on both flanks: the backlash is larger than the range of the gap."
+        )
     if found.deceleration is None:
-        told.append("The gear does not fly through the middle of its play: drag over inertia is unknown.")
+        recorded.append("The gear does not fly through the middle of its play: drag over inertia is unknown.")
     else:
-        told.append(
+        recorded.append(
             "In flight the oil pulls a little, too: calibrate.py takes that off by solving the motion."
         )
-    return told
+    return recorded

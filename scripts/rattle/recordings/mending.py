@@ -20,8 +20,8 @@ REPORTED = 5
 DEGREE = 5
 
 
-def odd_stretches(values: np.ndarray) -> list[tuple[int, int]]:
-    """First and last place of each spike or drop-out.
+def odd_stretches(values: np.ndarray, time: np.ndarray | None = None) -> list[tuple[int, int]]:
+    """First and last place of each spike or drop-out; a step over a longer time may be as much larger.
 
     A signal steps away by more than twelve times the median step (of smooth signals; of others a third of the
     step that one in ten exceeds) and steps back to where it was; or it steps close to an end.
@@ -29,6 +29,9 @@ def odd_stretches(values: np.ndarray) -> list[tuple[int, int]]:
     if len(values) < 8:
         return []
     steps = np.diff(values)
+    if time is not None:
+        spans = np.diff(time)
+        steps = steps / np.maximum(1.0, spans / max(float(np.median(spans)), np.finfo(float).tiny))
     size = np.abs(steps)
     usual = max(float(np.median(size)), float(np.median(np.abs(np.diff(steps)))), _quantum(values))
     limit = ODD_STEP * max(1.4826 * usual, float(np.percentile(size, 90.0)) / 3.0)
@@ -75,7 +78,7 @@ def mended(channel: Channel, *, mend: bool, notes: list[str], trend: np.ndarray 
     `trend` is what was taken off the values, for the words alone.
     """
     finite = np.flatnonzero(np.isfinite(channel.values))
-    odd = odd_stretches(channel.values[finite])
+    odd = odd_stretches(channel.values[finite], channel.time[finite] if channel.has_time else None)
     if not odd:
         return channel
     shown = channel.values if trend is None else channel.values + trend

@@ -99,8 +99,7 @@ def _within(channel: Channel, begin: float, end: float) -> Channel:
     if np.sum(inside) < 4:
         raise RecordingError(
             f"{channel.source}: --part leaves {np.sum(inside)} samples of '{channel.name}', which was "
-            "recorded from "
-            f"{channel.time[0]:.6g} to {channel.time[-1]:.6g} s."
+            f"recorded from {channel.time[0]:.6g} to {channel.time[-1]:.6g} s."
         )
     return replace(channel, time=channel.time[inside], values=channel.values[inside])
 

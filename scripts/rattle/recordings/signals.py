@@ -62,8 +62,7 @@ def taken(channel: Channel, radius: float | None, notes: list[str]) -> tuple[Cha
     if channel.unit and any(units.fits(channel.unit, other) for other in OTHERS):
         raise RecordingError(
             f"'{channel.name}' is in {units.shown(channel.unit)}; rattle takes the speed of a shaft "
-            "(1/min, rad/s, "
-            "Hz), its angular "
+            "(1/min, rad/s, Hz), its angular "
             "acceleration (rad/s2), its angle (deg), or a force (N): choose another --signal, or give its "
             "--unit."
         )

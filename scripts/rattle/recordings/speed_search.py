@@ -33,8 +33,7 @@ def steady_angle(channel: Channel, near_rpm: float, cycle_revolutions: int) -> S
     if span * base < 3.0:
         raise RecordingError(
             f"{channel.source}: {span:.4g} s are {span * base:.2g} cycles at {near_rpm:g} 1/min; to find "
-            "the speed "
-            "from the signal itself takes at least three. Record a tacho."
+            "the speed from the signal itself takes at least three. Record a tacho."
         )
     usual = float(np.median(np.diff(time)))
     even = np.arange(0.0, span, usual)
