@@ -115,8 +115,9 @@ contains
 
       call refuse(checks, lines('root:x:0', 'daemon:x:1'), '', ':2: column 1: no number stands here')
       call refuse(checks, lines('user,word', 'bob,secret', 'eve,more'), 'c', &
-                  ":1: there is no column 'c'; its columns are which cannot be told")
-      call refuse(checks, lines('user,word', 'bob,secret'), '', ':1: signal_column must name one of its columns: which cannot')
+                  ":1: there is no column 'c'; its columns are which are not known")
+      call refuse(checks, lines('user,word', 'bob,secret'), '', &
+                  ':1: signal_column must name one of its columns: which are not known')
       call refuse(checks, lines('time,force', '0;1', '1;3', '2;2', '3;0'), '', &
                   ':2: the line has 1 columns, the header 2: semicolons')
       call refuse(checks, lines('force', '1;', '3;', '2;', '0;'), '', ':2: semicolons separate the columns')
