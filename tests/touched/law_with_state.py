@@ -34,7 +34,7 @@ def change(tree: Tree) -> None:
         "   use relaxing_film, only: relaxing_film_t\n   use scene_types, only: law_relaxing\n",
     )
     tree.put(main, "   type(command_t) :: command\n", "   type(relaxing_film_t), target, save :: chain\n")
-    tree.put(main, "   exit_code = exit_complete\n", "   call add_film_state(law_relaxing, chain)\n")
+    tree.put(main, "   call watch_end()\n", "   call add_film_state(law_relaxing, chain)\n")
 
 
 def look(folder: Path, scratch: Path) -> None:
