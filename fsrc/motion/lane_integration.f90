@@ -35,7 +35,7 @@ module lane_integration
    real(dp), parameter :: most_series_steps = 3000.0_dp, most_implicit_steps = 1.0e5_dp
    !> Steps of collocation that a motion may take in all, once and for each of its periods. Of the ready inputs and 2400 random scenes
    !> of the stress study the longest take 431 000 in 191 periods and 76 000 in two.
-   real(dp), parameter :: most_steps_once = 3.0e5_dp, most_steps_in_mean = 4.0e3_dp
+   real(dp), parameter :: most_steps_once = 1.0e6_dp, most_steps_in_mean = 4.0e3_dp
 
    public :: integrate_lanes
 

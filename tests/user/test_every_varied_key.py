@@ -145,7 +145,8 @@ def values_of(run, place: Path, text: str) -> dict[str, float]:
 
 def changed(key: str, value: float) -> float:
     if isinstance(value, int):
-        return value + 1
+        # With one tooth more a pinion of given tip would have hardly any teeth above its pitch circle.
+        return value - 1 if key == "gear.teeth_1" else value + 1
     return value * (1.002 if key in NARROW else 1.04) or 1e-4
 
 

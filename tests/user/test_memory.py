@@ -67,7 +67,7 @@ SHORTAGES = {
         130,
         "cells",
     ),
-    "anything": ({}, 30, "&spectrum periods"),
+    "anything": ({}, 40, "&spectrum periods"),
 }
 
 
