@@ -352,8 +352,7 @@ contains
             integer_text(counts(count_tested))//' scenes not verified: solved again, tighter, the class is another or close to '// &
             'a limit (column verified)')
          if (counts(count_irregular) > 0) call log%line('  '//counted(counts(count_irregular), 'scene')//' irregular: '// &
-            'other windows than that of '//counted(scene%spectrum%periods, 'period')//' have other numbers; '// &
-            'more of spectrum.periods steadies them (rattle_class)')
+            'their numbers are those of 100 periods and more, with standard errors (rattle_class, acceleration_rms_error)')
          if (counts(count_irregular_so_far) > 0) call log%line('  '//counted(counts(count_irregular_so_far), 'scene')// &
             ' irregular so far: without repetition, and no neighbouring motion parts for good (rattle_class)')
          if (longest%number > 0_int64) call log%line('  the longest: scene '//integer_text(longest%number)//', '// &

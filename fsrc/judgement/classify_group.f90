@@ -8,13 +8,14 @@ module classify_group
    use engine, only: ending_t, motion_state_t, request_t
    use errors, only: error_t
    use kinds, only: dp
+   use irregular_statistics, only: is_enough, statistics_of_path
    use lyapunov, only: follow_neighbours, parting_t, path_t
    use many_motions, only: solve_motions
    use memory_need, only: expect_window_memory
    use periodic_orbit, only: attracting_period, periodic_orbit_t
    use prepared_scene, only: prepared_scene_t
    use problem, only: state_size
-   use rattle_class, only: class_creep, class_irregular_so_far, classify_steps, is_off_harmonics, note_orbit, note_parting, &
+   use rattle_class, only: class_creep, class_irregular_so_far, classify_steps, note_orbit, note_parting, &
       rattle_verdict_t
    use scene_group, only: has_window, scene_group_t
    use scene_orbit, only: nearby_orbit
@@ -36,41 +37,45 @@ module classify_group
    !> Samples of windows that are solved side by side: no more than these, but for a window that has more alone.
    integer, parameter :: samples_together = 2**21
 
-   public :: classify_windows, classify_finer, follow_irregular, integral_record, may_be_finer
+   public :: classify_windows, follow_irregular, integral_record, may_be_finer
 
 contains
 
    !> Classes of the windows, by as many samples as they need, or by integrals over the steps. After a signal to stop they are of no
    !> use.
-   subroutine classify_windows(scenes, group, error)
+   subroutine classify_windows(scenes, group, error, asked)
       type(prepared_scene_t), intent(in) :: scenes(:)
       !> The solved scenes; their classes are added
       type(scene_group_t), intent(inout) :: group
       !> Set if there is no memory for as many samples as are needed; the classes are of no use then
       type(error_t), allocatable, intent(out) :: error
+      !> Which of them; absent: all
+      logical, intent(in), optional :: asked(:)
       real(dp), allocatable :: accelerations(:)
       type(rattle_verdict_t), allocatable :: verdicts(:)
       integer, allocatable :: coarse(:), classified_by(:)
-      logical :: is_coarse(size(scenes))
+      logical :: is_coarse(size(scenes)), has_class(size(scenes))
       integer :: i
 
+      has_class = has_window(group%endings(:size(scenes)))
+      if (present(asked)) has_class = has_class .and. asked
       is_coarse = .false.
       if (.not. allocated(group%accelerations)) allocate (accelerations(size(group%states, 1)))
       do i = 1, size(scenes)
          if (must_stop()) return
-         if (has_window(group%endings(i))) call classify_own_samples(scenes(i), i, group, accelerations, is_coarse(i))
+         if (has_class(i)) call classify_own_samples(scenes(i), i, group, accelerations, is_coarse(i))
       end do
       coarse = pack([(i, i=1, size(scenes))], is_coarse)
       if (size(coarse) > 0) then
          verdicts = group%verdicts(coarse)
          allocate (classified_by(size(coarse)))
          call classify_finer(scenes(coarse), group%endings(coarse)%samples/scenes(1)%request%samples_per_period, &
-                             group%records(coarse), verdicts, classified_by, .false., error)
+                             group%records(coarse), verdicts, classified_by, error)
          group%verdicts(coarse) = verdicts
          group%classified_by(coarse) = classified_by
       end if
       do i = 1, size(scenes)
-         if (has_window(group%endings(i))) call note_orbit(group%verdicts(i), group%endings(i)%orbit)
+         if (has_class(i)) call note_orbit(group%verdicts(i), group%endings(i)%orbit)
       end do
    end subroutine classify_windows
 
@@ -105,7 +110,7 @@ contains
    end subroutine classify_own_samples
 
    !> Classify some windows anew. After a signal to stop the classes are of no use.
-   subroutine classify_finer(scenes, periods, records, verdicts, classified_by, class_alone, error)
+   subroutine classify_finer(scenes, periods, records, verdicts, classified_by, error)
       !> With the accuracy that they were solved with, and the samples that they have
       type(prepared_scene_t), intent(in) :: scenes(:)
       !> Periods of the windows
@@ -116,8 +121,6 @@ contains
       type(rattle_verdict_t), intent(inout) :: verdicts(:)
       !> Samples of a period that the classes are from; 0: integrals over the steps
       integer, intent(out) :: classified_by(:)
-      !> Whether nothing but the classes is asked for
-      logical, intent(in) :: class_alone
       !> Set if there is no memory for as many samples as are needed; the classes are of no use then
       type(error_t), allocatable, intent(out) :: error
       type(window_record_t) :: windows(size(scenes))
@@ -136,12 +139,8 @@ contains
          classified_by(i) = 0
       end do
       associate (spectrum => verdicts%spectrum)
-         if (class_alone) then
-            left = pack([(i, i=1, size(scenes))], spectrum%irregular_is_bound .and. .not. is_off_harmonics(verdicts%class))
-         else
-            left = pack([(i, i=1, size(scenes))], spectrum%irregular_is_bound .or. spectrum%distortion_is_bound .or. &
-                                                  .not. spectrum%count_is_bound .or. verdicts%class == class_creep)
-         end if
+         left = pack([(i, i=1, size(scenes))], spectrum%irregular_is_bound .or. spectrum%distortion_is_bound .or. &
+                                               .not. spectrum%count_is_bound .or. verdicts%class == class_creep)
       end associate
       do
          left = pack(left, may_be_finer(records(left), periods(left), finer) .and. &
@@ -236,14 +235,41 @@ contains
       left = pack(left, group%verdicts(left)%class == class_irregular_so_far)
       if (size(left) == 0) return
       allocate (partings(size(left)), passed(size(left)))
+      do i = 1, size(left)
+         passed(i)%record = integral_record(scenes(left(i))%spectrum)
+         passed(i)%record%wants = group%records(left(i))%wants
+         passed(i)%record%loads%impact_limit = scenes(left(i))%request%impact_limit
+      end do
       call unlock_texts()
-      call follow_neighbours(scenes(left)%resolved%problem, group%endings(left)%motion_state_t, partings, passed)
+      call follow_neighbours(scenes(left)%resolved%problem, group%endings(left)%motion_state_t, is_enough, &
+                             partings, passed)
       call lock_texts()
       do i = 1, size(left)
          call note_parting(group%verdicts(left(i)), partings(i))
-         group%paths(left(i)) = passed(i)
+         if (partings(i)%for_good) call take_path(scenes(left(i)), passed(i), left(i), group)
       end do
    end subroutine follow_irregular
+
+   !> Take where an irregular motion went, and its harmonics from there; its class stands.
+   subroutine take_path(scene, path, place, group)
+      type(prepared_scene_t), intent(in) :: scene
+      type(path_t), intent(in) :: path
+      !> Of the scene in the group
+      integer, intent(in) :: place
+      type(scene_group_t), intent(inout) :: group
+      type(rattle_verdict_t) :: verdict
+
+      call classify_steps(path%record, scene%resolved%problem%frequency, scene%spectrum, scene%resolved%noise_floor, verdict, &
+                          by_power=.true.)
+      associate (found => group%verdicts(place))
+         ! Whether the samples of the scene follow the motion is known from its window.
+         verdict%spectrum%sampling_sufficient = found%spectrum%sampling_sufficient
+         found%spectrum = verdict%spectrum
+         found%reversals_per_period = verdict%reversals_per_period
+      end associate
+      group%paths(place) = path
+      group%statistics(place) = statistics_of_path(path, scene%resolved%problem%frequency)
+   end subroutine take_path
 
    !> Records of some windows with Fourier integrals. The windows are solved again from where they begin, side by side; a window
    !> that cannot be has no periods in its record.

@@ -9,6 +9,7 @@ module judge_group
    use force_signal, only: has_enough_samples, signal_of_window
    use judged_scene, only: judged_scene_t
    use kinds, only: dp
+   use known_motions, only: are_near, near_states
    use memory_need, only: expect_window_memory
    use nodal_judgement, only: follow_in_nodes, verify_in_nodes
    use nodal_step, only: nodal_choice_t
@@ -20,16 +21,16 @@ module judge_group
       needs_verification, needs_verified_impacts
    use rattle_class, only: class_irregular_so_far, note_orbit
    use regime_check, only: check_regime
-   use scene_group, only: scene_group_t
+   use scene_group, only: has_window, judged_record, scene_group_t
    use scene_orbit, only: nearby_orbit
    use scene_status, only: is_success, status_steady
    use signals, only: must_stop
    use text_output, only: lock_texts, unlock_texts
    use verification, only: verification_t
    use verify_group, only: verified_windows_t, verify_windows
-   use vibration_severity, only: severity_of_record, severity_of_samples
+   use vibration_severity, only: severity_of_record, severity_of_samples, vibration_severity_t
    use window_extremes, only: extremes_of_record, extremes_of_samples
-   use window_impacts, only: impacts_of_record, impacts_of_samples
+   use window_impacts, only: impacts_of_record, impacts_of_samples, list_impacts_of
    use window_motion, only: note_own_motion
    use window_record, only: window_record_t
    implicit none(type, external)
@@ -72,7 +73,11 @@ contains
       end do
       if (.not. any(is_success(judged%status))) return
       if (needed(needs_orbit) .or. needed(needs_multipliers)) call find_orbits(scenes, needed, space%group)
-      if (needed(needs_spectrum)) call find_classes(scenes, needed, space, judged(1)%orbit_outcome, error)
+      if (needed(needs_spectrum)) then
+         call find_classes(scenes, needed, space, judged(1)%orbit_outcome, error)
+      else
+         call find_irregular(scenes, space%group, error)
+      end if
       if (must_stop() .or. allocated(error)) return
       do i = 1, size(scenes)
          judged(i)%repeats_after = space%group%repeat_after(i)
@@ -138,7 +143,30 @@ contains
       end associate
    end subroutine find_classes
 
-   !> Extremes, severity, impacts and regime of a window.
+   !> Find the irregular motions where no classes are asked for: what they amount to is not that of their windows. A motion that was
+   !> seen to repeat, or whose window ends where it begins, is none.
+   subroutine find_irregular(scenes, group, error)
+      type(prepared_scene_t), intent(in) :: scenes(:)
+      type(scene_group_t), intent(inout) :: group
+      !> Set if there is no memory for the samples of a scene
+      type(error_t), allocatable, intent(out) :: error
+      logical :: is_open(size(scenes))
+      integer :: i
+
+      is_open = .false.
+      do i = 1, size(scenes)
+         associate (problem => scenes(i)%resolved%problem, record => group%records(i), ending => group%endings(i))
+            if (.not. has_window(ending) .or. ending%orbit > 0 .or. record%periods == 0 .or. problem%contact%film%in_nodes) cycle
+            is_open(i) = .not. are_near(problem, near_states(problem), record%start%numbers, ending%numbers)
+         end associate
+      end do
+      if (.not. any(is_open)) return
+      call classify_windows(scenes, group, error, is_open)
+      if (must_stop() .or. allocated(error)) return
+      call follow_irregular(scenes, group, is_open)
+   end subroutine find_irregular
+
+   !> Extremes, severity, impacts and regime of a window, or of the periods that an irregular motion was followed.
    subroutine judge_window(scene, needed, place, group, judged)
       type(prepared_scene_t), intent(in) :: scene
       logical, intent(in) :: needed(:)
@@ -148,14 +176,18 @@ contains
       type(scene_group_t), intent(inout) :: group
       type(judged_scene_t), intent(inout) :: judged
 
-      associate (record => group%records(place), samples => group%endings(place)%samples, verdict => group%verdicts(place), &
+      type(window_record_t) :: record
+
+      record = judged_record(group, place)
+      judged%statistics = group%statistics(place)
+      associate (samples => group%endings(place)%samples, verdict => group%verdicts(place), &
                  problem => scene%resolved%problem, samples_per_period => scene%request%samples_per_period)
          judged%window_periods = samples/samples_per_period
          if (needed(needs_spectrum)) then
             judged%rattle = verdict
             associate (classified_by => group%classified_by(place))
                judged%series_coarse = classified_by /= samples_per_period .or. .not. verdict%spectrum%sampling_sufficient
-               judged%harmonics_by_integrals = classified_by == 0
+               judged%harmonics_by_integrals = classified_by == 0 .or. judged%statistics%periods > 0
                judged%samples_per_period = merge(samples_per_period, classified_by, judged%harmonics_by_integrals)
             end associate
          end if
@@ -163,14 +195,16 @@ contains
             judged%extremes = extremes_of_record(record)
             judged%severity = severity_of_record(record, problem%frequency)
             judged%impacts = impacts_of_record(record, problem%frequency)
+            if (judged%statistics%periods > 0) call list_impacts_of(impacts_of_record(group%records(place), problem%frequency), &
+                                                                    judged%impacts)
          else
             associate (states => group%states(:samples, :, place))
                judged%extremes = extremes_of_samples(problem, states, group%accelerations)
                judged%severity = severity_of_samples(problem, samples_per_period, states(:, of_velocity), group%accelerations)
                judged%impacts = impacts_of_samples(problem, scene%spectrum%impact_limit, samples_per_period, states)
             end associate
-            record%lowest = judged%extremes%lowest
-            record%highest = judged%extremes%highest
+            group%records(place)%lowest = judged%extremes%lowest
+            group%records(place)%highest = judged%extremes%highest
          end if
          if (needed(needs_film_force) .and. scene%in_gearbox) call note_film_force(scene, group, judged)
          if (needed(needs_regime)) then
@@ -192,15 +226,22 @@ contains
       type(window_record_t) :: record
       type(ending_t) :: ending
       type(error_t), allocatable :: short_of_memory
+      type(vibration_severity_t) :: severity
       real(dp), allocatable :: states(:, :), accelerations(:)
+      real(dp) :: force_rms
       integer :: samples_per_period
 
+      force_rms = judged%severity%film_force_rms
+      if (judged%statistics%periods > 0) then
+         severity = severity_of_record(group%records(1), scene%resolved%problem%frequency)
+         force_rms = severity%film_force_rms
+      end if
       accelerations = group%accelerations
       samples_per_period = scene%request%samples_per_period
       associate (problem => scene%resolved%problem, periods => judged%window_periods, window => group%records(1))
          do
             judged%film_force = signal_of_window(problem, accelerations, periods, judged%ending%periods, &
-                                                 judged%status == status_steady, judged%severity%film_force_rms)
+                                                 judged%status == status_steady, force_rms)
             if (has_enough_samples(judged%film_force, missed_power) .or. problem%contact%film%in_nodes) return
             if (.not. may_be_finer(window, periods, samples_per_period)) return
             samples_per_period = 2*samples_per_period
@@ -230,10 +271,8 @@ contains
       if (scenes(1)%resolved%problem%contact%film%in_nodes) then
          call verify_in_nodes(scenes(1), space%nodal, space%group, space%tight, verifications(1), error)
       else
-         if (needed(needs_verified_impacts)) then
-            windows%impacts = judged%impacts
-            windows%severities = judged%severity
-         end if
+         windows%severities = judged%severity
+         if (needed(needs_verified_impacts)) windows%impacts = judged%impacts
          windows%with_orbits = needed(needs_multipliers)
          call verify_windows(scenes, windows, space%group, space%tight, verifications, error)
       end if

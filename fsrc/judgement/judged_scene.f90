@@ -7,6 +7,7 @@ module judged_scene
    use force, only: inertia_ratio
    use force_signal, only: force_signal_t
    use impacts, only: impact_count_t
+   use irregular_statistics, only: irregular_statistics_t
    use kinds, only: dp
    use vibration_severity, only: vibration_severity_t
    use nodal_step, only: nodal_choice_t
@@ -25,7 +26,8 @@ module judged_scene
    use scene_types, only: drag_computed, drag_t, drag_unknown
    use known_motions, only: settled_motion_t
    use window_extremes, only: window_extremes_t
-   use window_impacts, only: double_sided_impacts, has_reversal, has_separation, verdict_of, window_impacts_t
+   use window_impacts, only: double_sided_impacts, has_reversal, has_separation, impulse_mean, verdict_of, &
+      window_impacts_t
    implicit none(type, external)
    private
 
@@ -53,6 +55,8 @@ module judged_scene
       !> Of a pair of a gearbox, whose pairs are summed
       type(force_signal_t) :: film_force
       type(window_impacts_t) :: impacts
+      !> Of an irregular motion: what all these are known from, and their standard errors
+      type(irregular_statistics_t) :: statistics
       type(rattle_verdict_t) :: rattle
       type(regime_verdict_t) :: regime
       type(verification_t) :: verification
@@ -237,8 +241,16 @@ contains
             if (verification%exists .and. judged%impacts%exists) value = flag(verification%impacts%verdict)
          case (quantity_impacts_verified)
             if (verification%exists .and. judged%impacts%exists) value = flag(verification%impacts%numbers)
+         case (quantity_followed_periods)
+            if (judged%statistics%periods > 0) value = real(judged%statistics%periods, dp)
+         case (quantity_batch_periods)
+            if (judged%statistics%periods > 0) value = real(judged%statistics%batch_periods, dp)
          case (quantity_severity_error)
             if (allocated(verification%harmonic_errors) .and. spectrum%moving) value = error_value(quantity, verification)
+         case (quantity_acceleration_rms_error, quantity_film_force_rms_error)
+            if (allocated(verification%harmonic_errors)) value = error_value(quantity, verification)
+         case (quantity_dissipated_power_error)
+            if (allocated(verification%harmonic_errors)) value = error_value(quantity, verification)*problem%frequency
          case (quantity_film_error, quantity_film_minimum_error, quantity_film_maximum_error, quantity_acceleration_error, &
                quantity_acceleration_minimum_error, quantity_acceleration_maximum_error)
             if (allocated(verification%harmonic_errors)) value = error_value(quantity, verification)
@@ -368,7 +380,15 @@ contains
       case (contact_load_maximum)
          value = judged%extremes%highest(seen_loads(contact))%value
       case default
-         if (judged%impacts%exists) value = value_of_impacts(part, judged%impacts%contacts(contact), judged%impacts%periods)
+         if (.not. judged%impacts%exists) return
+         select case (part)
+         case (contact_impacts_per_period_error)
+            if (allocated(judged%verification%harmonic_errors)) value = judged%verification%impacts_per_period_errors(contact)
+         case (contact_impact_impulse_mean_error)
+            if (allocated(judged%verification%harmonic_errors)) value = judged%verification%impulse_mean_errors(contact)
+         case default
+            value = value_of_impacts(part, judged%impacts%contacts(contact), judged%impacts%periods)
+         end select
       end select
    end function contact_value
 
@@ -393,7 +413,7 @@ contains
       case (contact_impact_impulse_maximum)
          value = impacts%impulse_maximum
       case (contact_impact_impulse_mean)
-         value = impacts%impulse_sum/real(max(1, impacts%count), dp)
+         value = impulse_mean(impacts)
       case default
          continue
       end select
@@ -465,6 +485,12 @@ contains
          value = verification%acceleration_maximum_error
       case (quantity_severity_error)
          value = verification%severity_error
+      case (quantity_acceleration_rms_error)
+         value = verification%severity_errors%acceleration_rms
+      case (quantity_film_force_rms_error)
+         value = verification%severity_errors%film_force_rms
+      case (quantity_dissipated_power_error)
+         value = verification%severity_errors%dissipated_energy
       case default
          continue
       end select

@@ -6,7 +6,7 @@ module nodal_judgement
    use clock, only: wall_seconds
    use constants, only: pi
    use controlled_engine, only: solve_window
-   use doubt, only: doubt_second_ending, doubt_t, is_doubted
+   use doubt, only: doubt_second_ending, doubt_t
    use engine, only: checkpoint_t, ending_t, motion_watcher_t, start_of, unwatched_t
    use errors, only: error_t
    use kinds, only: dp
@@ -19,16 +19,14 @@ module nodal_judgement
    use periodic_orbit, only: attracting_period
    use prepared_scene, only: prepared_scene_t
    use problem, only: largest_applied_force, problem_t
-   use rattle_class, only: class_irregular, class_irregular_so_far, classify_steps, note_known, note_orbit, note_parting, &
-      rattle_verdict_t
+   use rattle_class, only: class_irregular, class_irregular_so_far, classify_steps, note_known, note_orbit, note_parting
    use scene_group, only: scene_group_t, take_window
    use scene_orbit, only: orbit_nearness
    use scene_status, only: is_success, status_time_limit
    use text_output, only: lock_texts, unlock_texts
-   use verification, only: compare_windows, doubt_behind, doubt_of_impacts, no_verification, severity_error, verification_t, &
-      windows_behind
+   use verification, only: compare_windows, doubt_of_impacts, no_verification, note_impact_errors, note_severity_errors, &
+      verification_t
    use vibration_severity, only: severity_of_record
-   use window_class, only: classify_window
    use window_extremes, only: extremes_of_record
    use window_impacts, only: agreement_of, impacts_of_record
    use window_keeper, only: window_keeper_t
@@ -117,16 +115,12 @@ contains
    end subroutine solve_nodal_scene
 
    !> The last periods of a scene, solved finer, unless the time of the scene is over. Without it the group has no window.
-   subroutine solve_finer(scene, choice, periods, group, goes_on)
+   subroutine solve_finer(scene, choice, group)
       type(prepared_scene_t), intent(in) :: scene
       !> How it was followed
       type(nodal_choice_t), intent(in) :: choice
-      !> Periods to solve
-      integer, intent(in) :: periods
-      !> The finer solution; where it goes on, the one before
+      !> The finer solution
       type(scene_group_t), intent(inout) :: group
-      !> Whether it goes on from the end of the one before
-      logical, intent(in) :: goes_on
       type(prepared_scene_t) :: again
       type(checkpoint_t) :: state
       type(nodal_choice_t) :: finer
@@ -134,14 +128,9 @@ contains
       type(unwatched_t) :: nobody
       type(error_t), allocatable :: error
 
-      if (goes_on) then
-         associate (ending => group%endings(1))
-            state = checkpoint_t(periods=ending%periods, numbers=ending%numbers, nodal=ending%nodal)
-         end associate
-      end if
       if (is_late(choice)) then
-         call take_window(keeper%states, keeper%accelerations, ending_t(status=status_time_limit, periods=state%periods), &
-                          window_record_t(), group)
+         call take_window(keeper%states, keeper%accelerations, ending_t(status=status_time_limit), window_record_t(), &
+                          group)
          return
       end if
       finer = choice
@@ -149,7 +138,6 @@ contains
       finer%tolerance = tighter*choice%tolerance
       finer%bound = tighter*choice%bound
       again = scene
-      again%request%periods = periods
       again%request%until_steady = .false.
       call keeper%keep_windows_of(scene%resolved%problem)
       call unlock_texts()
@@ -199,7 +187,7 @@ contains
       type(doubt_t) :: doubt
       real(dp) :: accuracy, pressures(2)
 
-      call solve_finer(scene, choice, scene%request%periods, tight, goes_on=.false.)
+      call solve_finer(scene, choice, tight)
       if (.not. is_success(tight%endings(1)%status)) then
          verification = no_verification(doubt_t(doubt_second_ending, counts=[tight%endings(1)%status, 0]))
          return
@@ -212,9 +200,8 @@ contains
             call classify_steps(finer, problem%frequency, scene%spectrum, scene%resolved%noise_floor, finer_verdict)
          call note_orbit(finer_verdict, group%repeat_after(1))
          call note_known(finer_verdict, verdict)
-         doubt = doubt_of_impacts(verdict, finer_verdict, scene%request%sampled_periods)
-         if (.not. is_doubted(doubt) .and. verdict%class == class_irregular .and. finer_verdict%class == class_irregular) &
-            call look_behind(scene, choice, tight%endings(1), doubt)
+         doubt = doubt_t()
+         if (verdict%class == class_irregular) doubt = doubt_of_impacts(verdict, scene%request%sampled_periods)
          accuracy = finer_share*scene%request%accuracy
          ! Of the films their extremes count: where one falls by decades in an impact, a millionth of a period is a third of it.
          call compare_windows(spread(minval(films_of(problem, group%states(:, :, 1)), dim=1), 1, 1), &
@@ -224,37 +211,13 @@ contains
          verification%impacts = agreement_of(problem, extremes_of_record(record), impacts_of_record(record, problem%frequency), &
                                              extremes_of_record(finer), impacts_of_record(finer, problem%frequency), &
                                              group%repeat_after(1) > scene%request%sampled_periods)
-         verification%severity_error = severity_error(severity_of_record(record, problem%frequency), &
-                                                      severity_of_record(finer, problem%frequency), accuracy)
+         call note_severity_errors(severity_of_record(record, problem%frequency), &
+                                   severity_of_record(finer, problem%frequency), accuracy, verification)
+         call note_impact_errors(impacts_of_record(record, problem%frequency), impacts_of_record(finer, problem%frequency), &
+                                 verification)
          pressures = [record%highest(seen_pressure)%value, finer%highest(seen_pressure)%value]
          verification%pressure_error = 2.0_dp*abs(pressures(1) - pressures(2))/minval(pressures)
       end associate
    end subroutine verify_in_nodes
-
-   !> Whether a motion stays irregular behind the window of its finer solution.
-   subroutine look_behind(scene, choice, ending, doubt)
-      type(prepared_scene_t), intent(in) :: scene
-      !> How it was followed
-      type(nodal_choice_t), intent(in) :: choice
-      !> Of the finer solution
-      type(ending_t), intent(in) :: ending
-      !> None if the motion stays irregular
-      type(doubt_t), intent(out) :: doubt
-      type(scene_group_t) :: behind
-      type(rattle_verdict_t) :: verdict
-      integer :: passed
-
-      behind%endings = [ending]
-      associate (periods => scene%request%sampled_periods)
-         do passed = 1, windows_behind(periods)
-            call solve_finer(scene, choice, behind%endings(1)%periods + periods, behind, goes_on=.true.)
-            if (is_success(behind%endings(1)%status)) &
-               call classify_window(scene%spectrum, scene%resolved%problem, periods, behind%accelerations, behind%records(1), &
-                                    scene%resolved%noise_floor, verdict)
-            doubt = doubt_behind(passed, behind%endings(1)%status, verdict)
-            if (is_doubted(doubt)) return
-         end do
-      end associate
-   end subroutine look_behind
 
 end module nodal_judgement

@@ -1,6 +1,7 @@
 !> Scenes that are solved side by side, or a single one: the samples of their windows, what the steps tell of them, and their classes.
 module scene_group
    use engine, only: ending_t, motion_state_t, reserved_periods
+   use irregular_statistics, only: irregular_statistics_t
    use kinds, only: dp
    use known_motions, only: known_motions_t
    use lyapunov, only: path_t
@@ -33,13 +34,14 @@ module scene_group
       integer, allocatable :: classified_by(:)
       !> Periods after which they repeat, by the engine or by a search at their ends; 0 where none was found
       integer, allocatable :: repeat_after(:)
-      !> Where the motions went that are irregular
+      !> Where the motions went that are irregular, and what the steps tell of it
       type(path_t), allocatable :: paths(:)
+      type(irregular_statistics_t), allocatable :: statistics(:)
       !> Periodic motions next to the ends, where they were looked for
       type(periodic_orbit_t), allocatable :: orbits(:)
    end type scene_group_t
 
-   public :: solve_group, take_window, has_window
+   public :: solve_group, take_window, has_window, judged_record
 
 contains
 
@@ -90,8 +92,9 @@ contains
       if (allocated(group%accelerations)) deallocate (group%accelerations)
       if (.not. allocated(group%endings)) &
          allocate (group%endings(scenes), group%records(scenes), group%verdicts(scenes), group%classified_by(scenes), &
-                   group%repeat_after(scenes), group%paths(scenes), group%orbits(scenes))
+                   group%repeat_after(scenes), group%paths(scenes), group%statistics(scenes), group%orbits(scenes))
       group%paths = path_t()
+      group%statistics = irregular_statistics_t()
       group%orbits = periodic_orbit_t()
    end subroutine make_room
 
@@ -115,6 +118,16 @@ contains
       group%records(1) = record
       group%repeat_after(1) = ending%orbit
    end subroutine take_window
+
+   !> What the steps tell of a motion: of an irregular one over the periods that it was followed, else over its window.
+   pure type(window_record_t) function judged_record(group, place)
+      type(scene_group_t), intent(in) :: group
+      !> Of the motion
+      integer, intent(in) :: place
+
+      judged_record = group%records(place)
+      if (group%paths(place)%record%periods > 0) judged_record = group%paths(place)%record
+   end function judged_record
 
    !> Whether a motion has a window: it has not failed, nor come to a known one.
    elemental logical function has_window(ending)

@@ -10,11 +10,12 @@ module window_motion
    use prepared_scene, only: prepared_scene_t
    use problem, only: problem_t, state_size
    use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic
-   use scene_group, only: scene_group_t
+   use scene_group, only: judged_record, scene_group_t
    use text_output, only: lock_texts, unlock_texts
    use vibration_severity, only: severity_of_record, vibration_severity_t
    use window_extremes, only: extremes_of_record
    use window_impacts, only: impacts_of_record, verdict_of
+   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -80,7 +81,7 @@ contains
       integer :: periods, i
 
       associate (ending => group%endings(place))
-         severity = severity_of_record(group%records(place), problem%frequency)
+         severity = severity_of_record(judged_record(group, place), problem%frequency)
          motion%acceleration_rms = severity%acceleration_rms
          periods = ending%samples/samples_per_period
          allocate (states(state_size(problem), periods))
@@ -129,18 +130,18 @@ contains
       type(scene_group_t), intent(in) :: group
       type(settled_motion_t), intent(in) :: motion
       type(vibration_severity_t) :: severity
+      type(window_record_t) :: record
 
-      associate (record => group%records(place))
-         severity = severity_of_record(record, problem%frequency)
-         summary%class = group%verdicts(place)%class
-         summary%period = motion%period
-         allocate (summary%state, source=motion%states(:, 1))
-         if (record%loads%impact_limit > 0.0_dp) &
-            summary%verdict = verdict_of(problem, extremes_of_record(record), impacts_of_record(record, problem%frequency))
-         summary%acceleration_rms = severity%acceleration_rms
-         summary%film_force_rms = severity%film_force_rms
-         summary%film_minimum = record%lowest(seen_films(1))%value
-      end associate
+      record = judged_record(group, place)
+      severity = severity_of_record(record, problem%frequency)
+      summary%class = group%verdicts(place)%class
+      summary%period = motion%period
+      allocate (summary%state, source=motion%states(:, 1))
+      if (record%loads%impact_limit > 0.0_dp) &
+         summary%verdict = verdict_of(problem, extremes_of_record(record), impacts_of_record(record, problem%frequency))
+      summary%acceleration_rms = severity%acceleration_rms
+      summary%film_force_rms = severity%film_force_rms
+      summary%film_minimum = record%lowest(seen_films(1))%value
    end function summary_of_window
 
    !> Periods of the force after which the states of a window come again near enough, 0 if they do not within half of it.

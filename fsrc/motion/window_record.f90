@@ -66,7 +66,13 @@ module window_record
       integer :: turn_count = 0
    end type window_record_t
 
-   public :: start_record, record_period, momentum_gap, energy_gap
+   public :: start_record, record_period, sums_of_record, momentum_gap, energy_gap
+
+   !> Places of sums_of_record: powers of z'' from the first to the fourth, what the film carries beyond the static load, its square
+   !> and its power, time unloaded; of each contact its impacts, of each their impulse; from the last one on squares of harmonics.
+   integer, parameter, public :: sum_of_powers = 1, sum_beyond = 5, sum_of_power = 7, sum_unloaded = 8, sum_of_impacts = 9, &
+                                 sum_of_impulses = sum_of_impacts + most_contacts, &
+                                 sum_of_squares = sum_of_impulses + most_contacts
 
 contains
 
@@ -314,6 +320,20 @@ contains
          end do
       end associate
    end subroutine add_turns
+
+   !> Sums over the periods of a record that means are made of, by the places above.
+   pure function sums_of_record(record) result(sums)
+      type(window_record_t), intent(in) :: record
+      real(dp) :: sums(sum_of_squares + record%multiples - 1)
+
+      associate (impacts => record%loads%contacts)
+         sums(:sum_of_squares - 1) = [record%acceleration_sum, record%acceleration_square, record%acceleration_cube, &
+                                      record%acceleration_fourth, record%beyond_static, record%beyond_static_square, &
+                                      record%power_beyond_static, record%loads%unloaded, real(impacts%count, dp), &
+                                      impacts%impulse_sum]
+      end associate
+      if (record%multiples > 0) sums(sum_of_squares:) = record%harmonic_squares(1:)
+   end function sums_of_record
 
    !> By how much the integral of z'' misses the change of z', as a share of the integral of |z''| [-].
    pure real(dp) function momentum_gap(record, frequency) result(gap)

@@ -363,9 +363,15 @@ contains
                           short_text(rattle%reversals_per_period, 3)//' reversals a period: '// &
                           spaced(quantity_word(quantity_rattle_class, rattle%class))// &
                           verified_in_brackets())
-            if (spectrum%sampling_sufficient .and. any(rattle%class == [class_irregular, class_irregular_so_far])) &
+            if (judged%statistics%periods > 0) then
+               call log%line('  Extremes, rms, impacts and harmonics are those of '// &
+                             counted(judged%statistics%periods, 'period')//' that the motion was followed, with standard '// &
+                             'errors by batches of '//counted(judged%statistics%batch_periods, 'period')// &
+                             '; extremes of an irregular motion grow with time.')
+            else if (spectrum%sampling_sufficient .and. any(rattle%class == [class_irregular, class_irregular_so_far])) then
                call log%line('  The motion does not repeat within its window of '//counted(scene%spectrum%periods, 'period')// &
                              ': other windows have other numbers; more of spectrum.periods steadies them.')
+            end if
          else
             call log%line('  no motion but rounding: '//spaced(quantity_word(quantity_rattle_class, rattle%class)))
          end if
@@ -426,10 +432,26 @@ contains
       verified = quantity_value(quantity_verdict_verified, judged)
       if (.not. ieee_is_nan(verified)) &
          sentence = sentence//trim(merge(' (verified) ', ' (uncertain)', verified > 0.0_dp))
-      sentence = sentence//': film force rms '//short_text(judged%severity%film_force_rms, 4)//' N, acceleration rms '// &
-                 short_text(judged%severity%acceleration_rms, 4)//' m/s2'
+      associate (severity => judged%severity, errors => judged%statistics%severity)
+         sentence = sentence//': film force rms '//short_text(severity%film_force_rms, 4)// &
+                    scatter(errors%film_force_rms, severity%film_force_rms)//' N, acceleration rms '// &
+                    short_text(severity%acceleration_rms, 4)//scatter(errors%acceleration_rms, severity%acceleration_rms)//' m/s2'
+      end associate
       if (judged%severity%acceleration_rms > 0.0_dp) sentence = sentence//' ('// &
          short_text(20.0_dp*log10(judged%severity%acceleration_rms/level_reference), 4)//' dB re 1e-6 m/s2)'
+
+   contains
+
+      !> Two standard errors of a number of an irregular motion; empty for others.
+      pure function scatter(standard_error, number) result(words)
+         real(dp), intent(in) :: standard_error
+         real(dp), intent(in) :: number
+         character(:), allocatable :: words
+
+         words = ''
+         if (judged%statistics%periods > 0) words = ' +- '//error_text(2.0_dp*standard_error, number, 4)
+      end function scatter
+
    end function verdict_sentence
 
    !> That rigid teeth are no fair assumption; empty where they are, or where the teeth have a stiffness.
@@ -486,7 +508,7 @@ contains
 
       if (.not. judged%verification%exists) return
       call log%line('  '//verification_sentence(judged%verification))
-      if (size(judged%verification%harmonic_errors) > 0) &
+      if (size(judged%verification%harmonic_errors) > 0 .and. .not. judged%verification%by_statistics) &
          call log%line('  error of the film at most '//error_text(judged%verification%film_error, 1.0_dp, digits_of_extremes)// &
                        ' of it, of the extremes of the acceleration '// &
                        error_text(judged%verification%acceleration_minimum_error, &

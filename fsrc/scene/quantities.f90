@@ -44,10 +44,14 @@ module quantities
          quantity_motions, quantity_starts_solved, quantity_unsettled_starts, quantity_start_periods, quantity_loudest_class, &
          quantity_loudest_verdict, quantity_loudest_acceleration_rms, quantity_loudest_film_force_rms, &
          quantity_loudest_film_minimum, quantity_quietest_class, quantity_quietest_acceleration_rms, quantity_motion_end, &
-         quantity_lyapunov_exponent, quantity_verified, quantity_verdict_verified, quantity_impacts_verified, quantity_film_error, &
+         quantity_lyapunov_exponent, quantity_followed_periods, quantity_batch_periods, quantity_verified, &
+         quantity_verdict_verified, quantity_impacts_verified, quantity_film_error, &
          quantity_film_minimum_error, quantity_film_maximum_error, quantity_acceleration_error, &
-         quantity_acceleration_minimum_error, quantity_acceleration_maximum_error, quantity_severity_error, &
-         quantity_harmonic_errors, quantity_orbit_period, quantity_orbit_stability, quantity_floquet_multipliers, &
+         quantity_acceleration_minimum_error, quantity_acceleration_maximum_error, quantity_acceleration_rms_error, &
+         quantity_film_force_rms_error, quantity_dissipated_power_error, quantity_impacts_per_period_error_drive, &
+         quantity_impacts_per_period_error_coast, quantity_impact_impulse_mean_error_drive, &
+         quantity_impact_impulse_mean_error_coast, quantity_severity_error, quantity_harmonic_errors, quantity_orbit_period, &
+         quantity_orbit_stability, quantity_floquet_multipliers, &
          quantity_floquet_modulus, quantity_pressure_maximum, quantity_pressure_error, quantity_pressure_resolved, &
          quantity_film_at_pressure_maximum, quantity_central_film, quantity_alpha_p_maximum, quantity_deflection, &
          quantity_deflection_share, quantity_stiffness_matters, quantity_film_regime, quantity_law_contradicted, &
@@ -59,8 +63,9 @@ module quantities
    integer, parameter :: contact_film_minimum = 1, contact_film_maximum = 2, contact_load_maximum = 3, contact_impacts = 4, &
                          contact_impacts_per_period = 5, contact_impact_load_maximum = 6, contact_impact_velocity_maximum = 7, &
                          contact_impact_impulse_maximum = 8, contact_impact_impulse_mean = 9, contact_impact_times = 10, &
-                         contact_impact_loads = 11, contact_impact_velocities = 12, contact_impact_impulses = 13
-   integer, parameter :: quantities_of_contacts(2, 13) = reshape([ &
+                         contact_impact_loads = 11, contact_impact_velocities = 12, contact_impact_impulses = 13, &
+                         contact_impacts_per_period_error = 14, contact_impact_impulse_mean_error = 15
+   integer, parameter :: quantities_of_contacts(2, 15) = reshape([ &
       quantity_film_minimum, quantity_coast_film_minimum, &
       quantity_film_maximum, quantity_coast_film_maximum, &
       quantity_load_maximum, quantity_coast_load_maximum, &
@@ -73,7 +78,9 @@ module quantities
       quantity_impact_times_drive, quantity_impact_times_coast, &
       quantity_impact_loads_drive, quantity_impact_loads_coast, &
       quantity_impact_velocities_drive, quantity_impact_velocities_coast, &
-      quantity_impact_impulses_drive, quantity_impact_impulses_coast], [2, 13])
+      quantity_impact_impulses_drive, quantity_impact_impulses_coast, &
+      quantity_impacts_per_period_error_drive, quantity_impacts_per_period_error_coast, &
+      quantity_impact_impulse_mean_error_drive, quantity_impact_impulse_mean_error_coast], [2, 15])
 
    !> One quantity.
    type :: quantity_t
@@ -301,6 +308,10 @@ module quantities
       quantity_t(quantity_lyapunov_exponent, 'lyapunov_exponent', '-', a_number, part_class, needs_spectrum, &
          'summary sweep campaign', &
          'Mean logarithm by which a neighbouring motion parts, a period of the force; where a motion does not repeat.'), &
+      quantity_t(quantity_followed_periods, 'followed_periods', '-', a_count, part_class, needs_spectrum, 'summary campaign', &
+         'Periods that an irregular motion was followed: extremes, severity, impacts and harmonics are those of all of them.'), &
+      quantity_t(quantity_batch_periods, 'batch_periods', '-', a_count, part_class, needs_spectrum, 'summary campaign', &
+         'Of an irregular motion: periods of the batches, next to uncorrelated, whose means give its standard errors.'), &
       quantity_t(quantity_verified, 'verified', '-', a_flag, part_class, needs_verification, 'campaign', &
          'Whether the class is verified: a second solution with a tighter tolerance agrees.'), &
       quantity_t(quantity_verdict_verified, 'verdict_verified', '-', a_flag, part_class, needs_verified_impacts, &
@@ -323,6 +334,20 @@ module quantities
          needs_verification, 'summary', 'Error of acceleration_minimum.'), &
       quantity_t(quantity_acceleration_maximum_error, 'acceleration_maximum_error', 'm/s2', a_number, part_errors, &
          needs_verification, 'summary', 'Error of acceleration_maximum.'), &
+      quantity_t(quantity_acceleration_rms_error, 'acceleration_rms_error', 'm/s2', a_number, part_errors, needs_verification, &
+         'summary campaign', 'Error of acceleration_rms; of an irregular motion two standard errors, as all that follow.'), &
+      quantity_t(quantity_film_force_rms_error, 'film_force_rms_error', 'N', a_number, part_errors, needs_verification, &
+         'summary campaign', 'Error of film_force_rms.'), &
+      quantity_t(quantity_dissipated_power_error, 'dissipated_power_error', 'W', a_number, part_errors, needs_verification, &
+         'summary campaign', 'Error of dissipated_power.'), &
+      quantity_t(quantity_impacts_per_period_error_drive, 'impacts_per_period_error_drive', '-', a_number, part_errors, &
+         needs_verified_impacts, 'summary campaign', 'Error of impacts_per_period_drive.'), &
+      quantity_t(quantity_impacts_per_period_error_coast, 'impacts_per_period_error_coast', '-', a_number, part_errors, &
+         needs_verified_impacts, 'summary campaign', 'Error of impacts_per_period_coast.'), &
+      quantity_t(quantity_impact_impulse_mean_error_drive, 'impact_impulse_mean_error_drive', 'N s', a_number, part_errors, &
+         needs_verified_impacts, 'summary campaign', 'Error of impact_impulse_mean_drive.'), &
+      quantity_t(quantity_impact_impulse_mean_error_coast, 'impact_impulse_mean_error_coast', 'N s', a_number, part_errors, &
+         needs_verified_impacts, 'summary campaign', 'Error of impact_impulse_mean_coast.'), &
       quantity_t(quantity_severity_error, 'severity_error', '-', a_number, part_errors, needs_verification, 'summary', &
          'Largest relative error of acceleration_rms, acceleration_kurtosis, film_force_rms and dissipated_energy.'), &
       quantity_t(quantity_harmonic_errors, 'harmonic_errors', 'm/s2', a_list, part_errors, needs_verification, 'summary', &

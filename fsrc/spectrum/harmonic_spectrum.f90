@@ -70,13 +70,13 @@ contains
 
    !> Harmonics of a window from harmonics found by integrals over its steps, and its power: what lies beyond the highest harmonic
    !> is power too.
-   pure subroutine find_harmonics_by_integrals(harmonics, irregular_fraction, known_beyond, power, forced, harmonic_threshold, &
+   pure subroutine find_harmonics_by_integrals(harmonics, harmonic_power, known_beyond, power, forced, harmonic_threshold, &
                                            noise_floor, spectrum)
       !> a_1, a_2, ... [m/s2]
       real(dp), intent(in) :: harmonics(:)
-      !> Share of the power off the harmonics
-      real(dp), intent(in) :: irregular_fraction
-      !> Whether that share is known of the power beyond the highest harmonic, too; else the harmonic distortion is a lower bound,
+      !> Power that belongs to harmonics, in units of `power`
+      real(dp), intent(in) :: harmonic_power
+      !> Whether that is known of the power beyond the highest harmonic, too; else the harmonic distortion is a lower bound,
       !> that of the harmonics resolved
       logical, intent(in) :: known_beyond
       !> Twice the mean square of z'' about its mean: the sum of the squares of all harmonics [m2/s4]
@@ -96,7 +96,6 @@ contains
       spectrum%resolution_error = integral_error*maxval(harmonics)
       spectrum%moving = sqrt(max(0.0_dp, power)) > noise_floor
       if (.not. spectrum%moving) return
-      spectrum%irregular_fraction = irregular_fraction
       spectrum%distortion_is_bound = .not. known_beyond
       spectrum%harmonic_count = harmonics_above(harmonic_threshold, harmonics(spectrum%largest_forced), unforced)
       tail = maxval(harmonics((3*size(harmonics))/4 + 1:))
@@ -106,7 +105,7 @@ contains
          if (forced_amplitude > noise_floor) then
             spectrum%harmonic_distortion = norm2(unforced/forced_amplitude)
             if (known_beyond) spectrum%harmonic_distortion = max(spectrum%harmonic_distortion, sqrt(max(0.0_dp, &
-               (1.0_dp - irregular_fraction)*(power/forced_amplitude)/forced_amplitude - 1.0_dp)))
+               (harmonic_power/forced_amplitude)/forced_amplitude - 1.0_dp)))
          end if
       end associate
    end subroutine find_harmonics_by_integrals

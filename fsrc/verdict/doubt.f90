@@ -20,12 +20,12 @@ module doubt
    integer, parameter, public :: doubt_momentum = 4, doubt_energy = 5
    !> Samples too few: how many a period would do, or 0; whether the scene's are Newmark's steps, 1 or 0
    integer, parameter, public :: doubt_samples = 6
-   !> The window holds too few impacts
+   !> The motion holds too few impacts
    integer, parameter, public :: doubt_impacts = 7
    !> Films where the window begins and where it ends [m]
    integer, parameter, public :: doubt_return = 8
-   !> Another class behind the window, and how many windows behind; the status of a failure there
-   integer, parameter, public :: doubt_class_behind = 9, doubt_ending_behind = 10
+   !> The halves of an irregular motion differ: rms of z'' in both [m/s2]
+   integer, parameter, public :: doubt_halves = 9
    !> The irregular fraction near its limit, or within its error of it
    integer, parameter, public :: doubt_fraction_close = 11, doubt_fraction_error = 12
    !> Difference of the film [-]
@@ -91,17 +91,16 @@ contains
          case (doubt_samples)
             sentence = doubt_of_samples(counts(1), counts(2) == 1)
          case (doubt_impacts)
-            sentence = 'The window holds too few impacts to tell an irregular motion; more of spectrum.periods would.'
+            sentence = 'The motion has too few impacts, while it is followed, to tell an irregular one.'
          case (doubt_return)
             sentence = 'Solved again, the window of one period begins with a film of '//short_text(numbers(1), 3)// &
                        ' m and ends with '//short_text(numbers(2), 3)// &
                        ' m: that solution does not repeat after it, or not yet. '// &
                        'More of spectrum.periods would tell more.'
-         case (doubt_class_behind)
-            sentence = 'The class is that of this window: '//counted(counts(2), 'window')//' later the motion is '// &
-                       spaced(quantity_word(quantity_rattle_class, counts(1)))//'.'
-         case (doubt_ending_behind)
-            sentence = 'Behind the window the motion ends as '//status_name(counts(1))//'.'
+         case (doubt_halves)
+            sentence = 'The two halves of the '//counted(doubt%parting%periods, 'period')//' that the motion was followed '// &
+                       'differ by more than their errors: the rms of z" is '//short_text(numbers(1), 3)//' and '// &
+                       short_text(numbers(2), 3)//' m/s2.'
          case (doubt_fraction_close)
             sentence = 'The irregular fraction is close to its limit.'
          case (doubt_fraction_error)

@@ -87,7 +87,7 @@ contains
    !> beyond the highest multiple that is integrated, as much is taken to be off the harmonics as of the highest quarter of them.
    !> It is more where impacts come earlier or later from period to period: that takes the more of a harmonic the higher it is. The
    !> share of the power off the harmonics is a lower bound, then.
-   subroutine classify_steps(record, frequency, choice, noise_floor, verdict)
+   subroutine classify_steps(record, frequency, choice, noise_floor, verdict, by_power)
       !> Record of all periods of the window, with Fourier coefficients
       type(window_record_t), intent(in) :: record
       !> Frequency of the force [Hz]
@@ -97,11 +97,14 @@ contains
       !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
       type(rattle_verdict_t), intent(out) :: verdict
-      real(dp), dimension(record%multiples) :: varying, repeating
+      !> Whether harmonics are those of the mean power of a period, as of a motion that does not repeat, whose phases are lost; else,
+      !> and where absent, those that come again from period to period
+      logical, intent(in), optional :: by_power
+      real(dp), dimension(record%multiples) :: varying, repeating, harmonics
       !> Share of the power beyond the highest multiple that makes no odds, and share of the highest quarter off the harmonics below
       !> which a motion repeats so well that its impacts come in time: it grows with the square of the order at most
       real(dp), parameter :: negligible = 1.0e-3_dp, repeating_share = 1.0e-5_dp
-      real(dp) :: mean, periods, power, off_harmonics, beyond, share_beyond, irregular_beyond, irregular_fraction
+      real(dp) :: mean, periods, power, off_harmonics, beyond, share_beyond, irregular_beyond, irregular_fraction, share_repeating
       logical :: is_bound
       integer :: highest_quarter
 
@@ -109,7 +112,7 @@ contains
       mean = record%acceleration_sum/periods
       power = 2.0_dp*(record%acceleration_square/periods - mean*mean)
       highest_quarter = (3*record%multiples)/4 + 1
-      associate (sums => record%harmonic_sums, squares => record%harmonic_squares, n => record%multiples)
+      associate (sums => record%harmonic_sums, squares => record%harmonic_squares)
          ! What varies from period to period is off the harmonics; of the mean of z'' only that.
          repeating(:) = (abs(sums(1:))/periods)**2
          varying(:) = max(0.0_dp, squares(1:)/periods - repeating)
@@ -120,9 +123,18 @@ contains
          irregular_fraction = share(off_harmonics + irregular_beyond, sum(repeating) + beyond - irregular_beyond)
          is_bound = share_beyond > repeating_share .and. &
                     beyond - irregular_beyond > negligible*(off_harmonics + sum(repeating) + beyond)
-         call find_harmonics_by_integrals(2.0_dp*frequency/periods*abs(sums(1:n)), irregular_fraction, &
+         harmonics(:) = abs(sums(1:))/periods
+         share_repeating = 1.0_dp - irregular_fraction
+         if (present(by_power)) then
+            if (by_power) then
+               harmonics(:) = sqrt(squares(1:)/periods)
+               share_repeating = 1.0_dp
+            end if
+         end if
+         call find_harmonics_by_integrals(2.0_dp*frequency*harmonics, share_repeating*power, &
                                       .not. (is_bound .and. irregular_fraction > choice%irregular_limit), &
                                       power, choice%forced, choice%harmonic_threshold, noise_floor, verdict%spectrum)
+         if (verdict%spectrum%moving) verdict%spectrum%irregular_fraction = irregular_fraction
          verdict%spectrum%irregular_is_bound = is_bound .and. verdict%spectrum%moving
       end associate
       verdict%class = class_of(verdict%spectrum, choice)

@@ -1,20 +1,20 @@
 !> How far a verdict can be trusted: the window of a scene held against the same window solved tighter.
 module verification
-   use doubt, only: doubt_class, doubt_class_behind, doubt_count, doubt_count_bound, doubt_distortion, doubt_distortion_bound, &
-      doubt_ending_behind, doubt_energy, doubt_film, doubt_flight, doubt_fraction_close, doubt_fraction_error, doubt_impacts, &
-      doubt_largest_harmonic, doubt_momentum, doubt_parting, doubt_return, doubt_sentence, doubt_t, first_doubt, is_doubted, &
-      parting_sentence
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use doubt, only: doubt_class, doubt_count, doubt_count_bound, doubt_distortion, doubt_distortion_bound, doubt_energy, &
+      doubt_film, doubt_flight, doubt_fraction_close, doubt_fraction_error, doubt_halves, doubt_impacts, doubt_largest_harmonic, &
+      doubt_momentum, doubt_parting, doubt_return, doubt_sentence, doubt_t, first_doubt, is_doubted, parting_sentence
    use carried_loads, only: films_of
+   use irregular_statistics, only: irregular_statistics_t
    use kinds, only: dp
-   use vibration_severity, only: vibration_severity_t
+   use vibration_severity, only: severity_numbers, vibration_severity_t
    use node_extremes, only: seen_acceleration, seen_films
-   use problem, only: of_velocity, problem_t
+   use problem, only: most_contacts, of_velocity, problem_t
    use regime_check, only: gap_too_wide, model_limit
    use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, is_off_harmonics, rattle_verdict_t
-   use scene_status, only: is_success
    use scene_types, only: spectrum_choice_t
    use window_extremes, only: window_extremes_t
-   use window_impacts, only: impact_agreement_t
+   use window_impacts, only: impact_agreement_t, impacts_per_period, impulse_mean, window_impacts_t
    use window_record, only: energy_gap, momentum_gap, window_record_t
    implicit none(type, external)
    private
@@ -27,6 +27,8 @@ module verification
       logical :: exists = .false.
       !> The class is verified
       logical :: verified = .false.
+      !> Whether it is an irregular motion, and errors are twice the standard errors over the periods that it was followed
+      logical :: by_statistics = .false.
       !> Largest relative difference of the film over the window, its extremes included [-]
       real(dp) :: film_error = 0.0_dp
       !> Errors of the smallest and largest film [m]
@@ -42,6 +44,10 @@ module verification
       real(dp) :: pressure_error = -1.0_dp
       !> Whether the impacts are the same
       type(impact_agreement_t) :: impacts = impact_agreement_t()
+      !> Errors of these, each in its unit; of impacts a period [-], and of their mean impulse [N s], of each contact
+      type(vibration_severity_t) :: severity_errors
+      real(dp) :: impacts_per_period_errors(most_contacts) = 0.0_dp
+      real(dp) :: impulse_mean_errors(most_contacts) = 0.0_dp
       !> Errors of the harmonics [m/s2]
       real(dp), allocatable :: harmonic_errors(:)
       !> Why it is not verified; of a verified irregular motion, how a neighbouring one parts from it
@@ -56,15 +62,12 @@ module verification
    real(dp), parameter :: tight_share = 10.0_dp
    !> Share of the flow of momentum, or of energy, by which a window that closes may miss.
    real(dp), parameter :: closing_share = 1.0e-3_dp
-   !> Windows behind the one that is judged, and periods of them together, at least, in which a motion has to be irregular too.
-   integer, parameter :: least_windows_behind = 4, least_periods_behind = 32
-   !> Reversals of the acceleration that an irregular window holds at least, four impacts: of fewer the next window, or the
-   !> same one solved otherwise, may hold none.
+   !> Reversals of the acceleration that an irregular motion has at least while it is followed, four impacts.
    real(dp), parameter :: least_reversals = 8.0_dp
 
-   public :: compare_windows, severity_error, no_verification, verification_word, verification_sentence, &
- doubt_of_windows, doubt_of_closing, doubt_of_flight, doubt_of_impacts, doubt_of_return, windows_behind, doubt_behind, &
-             films_of_ends
+   public :: compare_windows, irregular_verification, note_severity_errors, note_impact_errors, no_verification, &
+             verification_word, verification_sentence, doubt_of_windows, doubt_of_closing, doubt_of_flight, doubt_of_impacts, &
+             doubt_of_return, films_of_ends
 
 contains
 
@@ -125,7 +128,6 @@ contains
 
       verification%doubt = doubt_of_class()
       verification%verified = .not. is_doubted(verification%doubt)
-      if (verification%verified .and. verdict%class == class_irregular) verification%doubt%parting = verdict%parting
 
    contains
 
@@ -173,8 +175,7 @@ contains
             doubt = unclosed
          else if (verdict%class == class_irregular) then
             ! Irregular motions part from each other; only that they are irregular can stand.
-            if (min(verdict%spectrum%irregular_fraction, tight_verdict%spectrum%irregular_fraction) &
-               < 2.0_dp*choice%irregular_limit) doubt = doubt_t(doubt_fraction_close)
+            doubt = first_doubt([doubt_of_fraction(verdict, choice), doubt_of_fraction(tight_verdict, choice)])
          else if (film_difference > tolerance) then
             doubt = doubt_t(doubt_film, numbers=[film_difference, 0.0_dp])
          else if (abs(verdict%spectrum%irregular_fraction - choice%irregular_limit) <= &
@@ -187,33 +188,78 @@ contains
 
    end subroutine compare_windows
 
-   !> Largest relative error of the numbers of severity [-].
-   pure real(dp) function severity_error(severity, tight, tight_accuracy)
+   !> Errors of the severity by that of the tighter solution.
+   pure subroutine note_severity_errors(severity, tight, tight_accuracy, verification)
       !> Of the scene and of its tighter solution
       type(vibration_severity_t), intent(in) :: severity
       type(vibration_severity_t), intent(in) :: tight
       !> Relative accuracy of the tighter solution [-]
       real(dp), intent(in) :: tight_accuracy
+      type(verification_t), intent(inout) :: verification
 
-      associate (numbers => numbers_of(severity))
-         severity_error = margin*(tight_share*tight_accuracy + &
-                                  maxval(abs(numbers - numbers_of(tight))/max(abs(numbers), tiny(1.0_dp))))
+      associate (numbers => severity_numbers(severity))
+         associate (errors => margin*(abs(numbers - severity_numbers(tight)) + tight_share*tight_accuracy*abs(numbers)))
+            verification%severity_errors = vibration_severity_t(errors(1), errors(2), errors(3), errors(4))
+            verification%severity_error = maxval(errors/max(abs(numbers), tiny(1.0_dp)))
+         end associate
       end associate
+   end subroutine note_severity_errors
 
-   contains
+   !> Errors of the impacts by those of the tighter solution.
+   pure subroutine note_impact_errors(impacts, tight, verification)
+      !> Of the scene and of its tighter solution
+      type(window_impacts_t), intent(in) :: impacts
+      type(window_impacts_t), intent(in) :: tight
+      type(verification_t), intent(inout) :: verification
 
-      !> All of them.
-      pure function numbers_of(severity) result(numbers)
-         type(vibration_severity_t), intent(in) :: severity
-         real(dp) :: numbers(4)
+      verification%impacts_per_period_errors = margin*abs(impacts_per_period(impacts) - impacts_per_period(tight))
+      verification%impulse_mean_errors = margin*abs(impulse_mean(impacts%contacts) - impulse_mean(tight%contacts))
+   end subroutine note_impact_errors
 
-         numbers = [severity%acceleration_rms, severity%acceleration_kurtosis, severity%film_force_rms, severity%dissipated_energy]
-      end function numbers_of
+   !> Verification of an irregular motion by the periods that it was followed. A second solution would be another sample of it:
+   !> what stands is its exponent, and what both halves of these periods agree in.
+   pure type(verification_t) function irregular_verification(problem, record, verdict, statistics, choice, noise_floor) &
+      result(verification)
+      type(problem_t), intent(in) :: problem
+      !> Record of these periods, and the verdict on them
+      type(window_record_t), intent(in) :: record
+      type(rattle_verdict_t), intent(in) :: verdict
+      type(irregular_statistics_t), intent(in) :: statistics
+      !> Limits of the classes
+      type(spectrum_choice_t), intent(in) :: choice
+      !> Acceleration that the errors of the solution explain [m/s2]
+      real(dp), intent(in) :: noise_floor
+      type(doubt_t) :: apart
 
-   end function severity_error
+      apart = doubt_t()
+      if (.not. statistics%halves_agree) apart = doubt_t(doubt_halves, numbers=statistics%rms_of_halves)
+      verification = no_verification(first_doubt([doubt_of_flight(record, problem%contact%film%radius), &
+                                                  doubt_of_closing(record, problem%frequency, problem%mass, noise_floor), &
+                                                  doubt_of_impacts(verdict, record%periods), &
+                                                  doubt_of_fraction(verdict, choice), apart]))
+      verification%verified = .not. is_doubted(verification%doubt)
+      verification%by_statistics = .true.
+      associate (errors => margin*severity_numbers(statistics%severity))
+         verification%severity_errors = vibration_severity_t(errors(1), errors(2), errors(3), errors(4))
+      end associate
+      verification%severity_error = margin*statistics%severity_share
+      verification%harmonic_errors = margin*statistics%harmonics
+      verification%impacts_per_period_errors = margin*statistics%impacts_per_period
+      verification%impulse_mean_errors = margin*statistics%impulse_mean
+      verification%impacts = impact_agreement_t(verdict=statistics%same_contacts, numbers=statistics%halves_agree)
+      verification%doubt%parting = verdict%parting
+      associate (unknown => ieee_value(1.0_dp, ieee_quiet_nan))
+         verification%film_error = unknown
+         verification%film_minimum_error = unknown
+         verification%film_maximum_error = unknown
+         verification%acceleration_error = unknown
+         verification%acceleration_minimum_error = unknown
+         verification%acceleration_maximum_error = unknown
+      end associate
+   end function irregular_verification
 
    !> First reason to doubt a motion by its window and that of its tighter solution, before both are held against each other.
-   pure type(doubt_t) function doubt_of_windows(problem, record, tight_record, noise_floor, tight_noise, verdict, tight_verdict, &
+   pure type(doubt_t) function doubt_of_windows(problem, record, tight_record, noise_floor, tight_noise, verdict, &
                                                 too_few_samples, periods, tight_end, tolerance) result(doubt)
       type(problem_t), intent(in) :: problem
       !> Records of both windows
@@ -222,9 +268,8 @@ contains
       !> Accelerations that the errors of both solutions explain [m/s2]
       real(dp), intent(in) :: noise_floor
       real(dp), intent(in) :: tight_noise
-      !> Verdicts of both
+      !> Verdict on the first one
       type(rattle_verdict_t), intent(in) :: verdict
-      type(rattle_verdict_t), intent(in) :: tight_verdict
       !> Doubt about the samples of both, or none
       type(doubt_t), intent(in) :: too_few_samples
       !> Periods of the window
@@ -238,7 +283,6 @@ contains
                            doubt_of_closing(record, problem%frequency, problem%mass, noise_floor), &
                            doubt_of_closing(tight_record, problem%frequency, problem%mass, tight_noise), &
                            too_few_samples, &
-                           doubt_of_impacts(verdict, tight_verdict, periods), &
                            doubt_of_return(verdict, periods, films_of_ends(problem, tight_record, tight_end), tolerance)])
    end function doubt_of_windows
 
@@ -290,19 +334,24 @@ contains
       end associate
    end function doubt_of_flight
 
-   !> Whether a window is too short to tell an irregular motion; of other motions there is no doubt.
-   pure type(doubt_t) function doubt_of_impacts(verdict, tight_verdict, periods) result(doubt)
-      !> Verdicts of a scene and of its tighter solution
+   !> Whether an irregular motion shows too little of itself.
+   pure type(doubt_t) function doubt_of_impacts(verdict, periods) result(doubt)
       type(rattle_verdict_t), intent(in) :: verdict
-      type(rattle_verdict_t), intent(in) :: tight_verdict
-      !> Periods of the window
+      !> That the verdict is on
       integer, intent(in) :: periods
 
       doubt = doubt_t()
-      if (verdict%class /= class_irregular .or. tight_verdict%class /= class_irregular) return
-      if (min(verdict%reversals_per_period, tight_verdict%reversals_per_period)*real(periods, dp) < least_reversals) &
-         doubt = doubt_t(doubt_impacts)
+      if (verdict%reversals_per_period*real(periods, dp) < least_reversals) doubt = doubt_t(doubt_impacts)
    end function doubt_of_impacts
+
+   !> Whether an irregular motion is nearly on its harmonics.
+   pure type(doubt_t) function doubt_of_fraction(verdict, choice) result(doubt)
+      type(rattle_verdict_t), intent(in) :: verdict
+      type(spectrum_choice_t), intent(in) :: choice
+
+      doubt = doubt_t()
+      if (verdict%spectrum%irregular_fraction < 2.0_dp*choice%irregular_limit) doubt = doubt_t(doubt_fraction_close)
+   end function doubt_of_fraction
 
    !> Whether a window of one period is not that of a motion that repeats after it. Of longer windows there is no doubt: there
    !> the power off the harmonics tells.
@@ -323,31 +372,6 @@ contains
       contact = maxloc(differences, dim=1)
       if (differences(contact) > tolerance) doubt = doubt_t(doubt_return, numbers=films(:2, contact))
    end function doubt_of_return
-
-   !> How many windows behind the one that is judged a motion has to be irregular in too. One that hits a flank now and then may be
-   !> quiet for a window and irregular in the next: then the class is that of the window, not of the motion.
-   pure integer function windows_behind(periods)
-      !> Periods of a window
-      integer, intent(in) :: periods
-
-      windows_behind = max(least_windows_behind, (least_periods_behind - 1)/periods + 1)
-   end function windows_behind
-
-   !> Whether a motion is not irregular behind its window.
-   pure type(doubt_t) function doubt_behind(windows, status, verdict) result(doubt)
-      !> Windows behind the one that was judged
-      integer, intent(in) :: windows
-      !> How this one ended, and its verdict
-      integer, intent(in) :: status
-      type(rattle_verdict_t), intent(in) :: verdict
-
-      doubt = doubt_t()
-      if (.not. is_success(status)) then
-         doubt = doubt_t(doubt_ending_behind, counts=[status, 0])
-      else if (.not. is_off_harmonics(verdict%class)) then
-         doubt = doubt_t(doubt_class_behind, counts=[verdict%class, windows])
-      end if
-   end function doubt_behind
 
    !> Whether a limit of the classes lies within the errors of the harmonics.
    pure type(doubt_t) function doubt_of_limits(verdict, tight_verdict, errors, choice) result(doubt)
@@ -414,11 +438,14 @@ contains
 
       sentence = doubt_sentence(verification%doubt)
       if (.not. verification%verified) return
+      if (verification%by_statistics) then
+         sentence = parting_sentence(verification%doubt%parting)//' Both halves of these agree: the class is verified. '// &
+                    'It may settle later all the same.'
+         return
+      end if
       tighter = 'a tighter tolerance'
       if (verification%pressure_error >= 0.0_dp) tighter = 'twice the nodes and '//tighter
       sentence = 'The class is verified: a second solution with '//tighter//' agrees, and no limit lies within the errors.'
-      if (verification%doubt%parting%periods > 0) &
-         sentence = sentence//' '//parting_sentence(verification%doubt%parting)//' It may settle later all the same.'
    end function verification_sentence
 
    !> Verification of a class that could not be put to the test.

@@ -8,7 +8,7 @@ module vibration_severity
    use force, only: force_of_period
    use kinds, only: dp
    use problem, only: problem_t
-   use window_record, only: window_record_t
+   use window_record, only: sum_beyond, sum_of_power, sum_of_powers, sums_of_record, window_record_t
    implicit none(type, external)
    private
 
@@ -24,7 +24,7 @@ module vibration_severity
       real(dp) :: dissipated_energy = 0.0_dp
    end type vibration_severity_t
 
-   public :: severity_of_record, severity_of_samples
+   public :: severity_of_record, severity_of_sums, severity_of_samples, severity_numbers
 
 contains
 
@@ -34,14 +34,23 @@ contains
       type(window_record_t), intent(in) :: record
       !> Frequency of the force [Hz]
       real(dp), intent(in) :: frequency
-      real(dp) :: periods
 
-      periods = real(record%periods, dp)
-      severity = severity_of_means([record%acceleration_sum, record%acceleration_square, record%acceleration_cube, &
-                                    record%acceleration_fourth]/periods, &
-                                   [record%beyond_static, record%beyond_static_square]/periods, &
-                                   record%power_beyond_static/(periods*frequency))
+      severity = severity_of_sums(sums_of_record(record), record%periods, frequency)
    end function severity_of_record
+
+   !> Vibration severity of sums over some periods.
+   pure type(vibration_severity_t) function severity_of_sums(sums, periods, frequency) result(severity)
+      !> By the places of module window_record
+      real(dp), intent(in) :: sums(:)
+      integer, intent(in) :: periods
+      !> Frequency of the force [Hz]
+      real(dp), intent(in) :: frequency
+
+      associate (means => sums/real(periods, dp))
+         severity = severity_of_means(means(sum_of_powers:sum_of_powers + 3), means(sum_beyond:sum_beyond + 1), &
+                                      means(sum_of_power)/frequency)
+      end associate
+   end function severity_of_sums
 
    !> Vibration severity of samples of whole periods.
    pure type(vibration_severity_t) function severity_of_samples(problem, samples_per_period, velocities, &
@@ -69,6 +78,14 @@ contains
          severity = severity_of_means(powers/samples, beyond/samples, power/(samples*problem%frequency))
       end associate
    end function severity_of_samples
+
+   !> All numbers, in the order of the type.
+   pure function severity_numbers(severity) result(numbers)
+      type(vibration_severity_t), intent(in) :: severity
+      real(dp) :: numbers(4)
+
+      numbers = [severity%acceleration_rms, severity%acceleration_kurtosis, severity%film_force_rms, severity%dissipated_energy]
+   end function severity_numbers
 
    !> Vibration severity from means over the window.
    pure type(vibration_severity_t) function severity_of_means(powers, beyond, work) result(severity)

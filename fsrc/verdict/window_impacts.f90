@@ -29,7 +29,8 @@ module window_impacts
       logical :: numbers = .false.
    end type impact_agreement_t
 
-   public :: impacts_of_record, impacts_of_samples, has_reversal, has_separation, verdict_of, agreement_of
+   public :: impacts_of_record, impacts_of_samples, has_reversal, has_separation, verdict_of, agreement_of, &
+             impacts_per_period, impulse_mean, list_impacts_of
 
 contains
 
@@ -79,6 +80,37 @@ contains
          end associate
       end do
    end function impacts_of_loads
+
+   !> List the impacts of a window, which a time series shows, beside the numbers of more periods.
+   pure subroutine list_impacts_of(window, impacts)
+      type(window_impacts_t), intent(in) :: window
+      !> Of more periods
+      type(window_impacts_t), intent(inout) :: impacts
+      integer :: contact
+
+      do contact = 1, size(impacts%contacts)
+         associate (listed => impacts%contacts(contact), shown => window%contacts(contact))
+            if (allocated(listed%kept)) deallocate (listed%kept)
+            if (allocated(shown%kept)) allocate (listed%kept, source=shown%kept)
+         end associate
+      end do
+   end subroutine list_impacts_of
+
+   !> Impacts a period on each contact [-].
+   pure function impacts_per_period(impacts) result(numbers)
+      !> Of a window that was asked for impacts
+      type(window_impacts_t), intent(in) :: impacts
+      real(dp) :: numbers(most_contacts)
+
+      numbers = real(impacts%contacts%count, dp)/real(max(1, impacts%periods), dp)
+   end function impacts_per_period
+
+   !> Mean impulse of the impacts on a contact [N s], 0 where there is none.
+   elemental real(dp) function impulse_mean(impacts)
+      type(impact_count_t), intent(in) :: impacts
+
+      impulse_mean = impacts%impulse_sum/real(max(1, impacts%count), dp)
+   end function impulse_mean
 
    !> Whether what all contacts carry together changes its sign.
    pure logical function has_reversal(problem, extremes)

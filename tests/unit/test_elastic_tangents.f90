@@ -5,9 +5,10 @@ module test_elastic_tangents
    use carried_loads, only: counts_as, sizes_of_state
    use checks, only: check_list_t
    use engine, only: ending_t, motion_state_t, request_t, start_of
+   use irregular_statistics, only: is_enough
    use kinds, only: dp
    use linear_equations, only: eigenvalues
-   use lyapunov, only: follow_neighbours, parting_t
+   use lyapunov, only: follow_neighbours, parting_t, path_t
    use many_motions, only: has_tangents, solve_motions
    use periodic_orbit, only: find_periodic_orbit, map_states, periodic_orbit_t
    use problem, only: problem_of, problem_t, state_size
@@ -110,6 +111,7 @@ contains
       type(ending_t) :: endings(1)
       type(periodic_orbit_t) :: orbit
       type(parting_t) :: partings(1)
+      type(path_t) :: paths(1)
       complex(dp), allocatable :: multipliers(:)
       real(dp) :: none(0, 2, 1)
 
@@ -122,7 +124,7 @@ contains
       ! Motions that are known to 1e-12, 1e-4 beside each other.
       multipliers = multipliers_of_differences(problem, orbit%state)
       call checks%check(maxval(abs(orbit%multipliers - multipliers)) <= 1.0e-7_dp, 'its multipliers')
-      call follow_neighbours([problem], [endings(1)%motion_state_t], partings)
+      call follow_neighbours([problem], [endings(1)%motion_state_t], is_enough, partings, paths)
       call checks%check_close(partings(1)%exponent, log(abs(orbit%multipliers(1))), 1.0e-3_dp, 'its exponent')
    end subroutine test_repeating
 

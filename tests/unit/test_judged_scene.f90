@@ -13,6 +13,7 @@ module test_judged_scene
    use rattle_class, only: class_creep, class_idle, class_irregular
    use prepared_scene, only: resolve
    use scene_types, only: drag_computed, scene_t
+   use vibration_severity, only: vibration_severity_t
    implicit none(type, external)
    private
 
@@ -85,6 +86,9 @@ contains
       judged%verification%acceleration_maximum_error = 55.0_dp
       judged%verification%acceleration_error = 56.0_dp
       judged%verification%severity_error = 57.0_dp
+      judged%verification%severity_errors = vibration_severity_t(0.61_dp, 0.62_dp, 0.63_dp, 0.64_dp)
+      judged%verification%impacts_per_period_errors = [0.65_dp, 0.66_dp]
+      judged%verification%impulse_mean_errors = [0.67_dp, 0.68_dp]
       judged%verification%harmonic_errors = [58.0_dp, 59.0_dp]
       judged%orbit%period = 2
       judged%orbit%multipliers = [(0.3_dp, -0.4_dp), (0.1_dp, 0.0_dp)]
@@ -171,6 +175,13 @@ contains
       call expect('acceleration_maximum_error', 55.0_dp)
       call expect('acceleration_error', 56.0_dp)
       call expect('severity_error', 57.0_dp)
+      call expect('acceleration_rms_error', 0.61_dp)
+      call expect('film_force_rms_error', 0.63_dp)
+      call expect('dissipated_power_error', 0.64_dp*judged%resolved%problem%frequency)
+      call expect('impacts_per_period_error_drive', 0.65_dp)
+      call expect('impacts_per_period_error_coast', 0.66_dp)
+      call expect('impact_impulse_mean_error_drive', 0.67_dp)
+      call expect('impact_impulse_mean_error_coast', 0.68_dp)
       call expect('floquet_modulus', 0.5_dp)
       call expect('motions', 3.0_dp)
       call expect('starts_solved', 29.0_dp)

@@ -216,7 +216,7 @@ contains
       call checks%check(parting%out_of_time .and. parting%periods == 0 .and. .not. parting%for_good, 'no neighbour is followed')
       call checks%check(index(doubt_sentence(doubt_t(doubt_parting, parting=parting)), 'solver.time_limit was over') > 0, &
                         'and it is said of an irregular motion')
-      call solve_finer(prepare(scene), choice, 1, group, goes_on=.false.)
+      call solve_finer(prepare(scene), choice, group)
       call checks%check(group%endings(1)%status == status_time_limit .and. group%endings(1)%periods == 0, 'nor is it solved again')
       scene%solver%periods = 2
       scene%solver%time_limit = 0.0_dp

@@ -1,15 +1,12 @@
-!> Tests of the verification of groups: motions that repeat after several periods whose windows begin elsewhere, and motions that are
-!> irregular in their window and settle behind it.
+!> Tests of the verification of groups: motions that repeat after several periods whose windows begin elsewhere.
 module test_verify_group
    use canonical_scenes, only: canonical_scene
-   use doubt, only: doubt_sentence, is_doubted
-   use verification, only: doubt_behind, verification_t, windows_behind
+   use verification, only: verification_t
    use checks, only: check_list_t
    use engine, only: request_t, start_of
    use kinds, only: dp
    use node_extremes, only: seen_quantities
-   use rattle_class, only: class_creep, class_idle, class_irregular, class_irregular_so_far, class_quiet, class_subharmonic, &
-      rattle_verdict_t
+   use rattle_class, only: class_subharmonic
    use classify_group, only: classify_windows
    use errors, only: error_t
    use periodic_orbit, only: periodic_orbit_t
@@ -17,7 +14,7 @@ module test_verify_group
    use scene_orbit, only: nearby_orbit
    use verify_group, only: verified_windows_t, verify_windows
    use scene_group, only: scene_group_t, solve_group
-   use scene_status, only: status_complete, status_film_lost, status_steady
+   use scene_status, only: status_complete
    use scene_types, only: law_iso_viscous, scene_t
    implicit none(type, external)
    private
@@ -34,44 +31,8 @@ contains
       class(check_list_t), intent(inout) :: checks  !> Collects the results
 
       call checks%start('verify_group')
-      call test_windows_behind(checks)
-      call test_doubt_behind(checks)
       call test_phase_of_an_orbit(checks)
-      call test_behind_the_window(checks)
    end subroutine run_verify_group_tests
-
-   !> Four windows at least, and 32 periods of them.
-   subroutine test_windows_behind(checks)
-      class(check_list_t), intent(inout) :: checks
-
-      call checks%check(windows_behind(1) == 32, '32 windows of a period')
-      call checks%check(windows_behind(3) == 11, '11 windows of three periods are 33')
-      call checks%check(windows_behind(7) == 5, 'five windows of seven')
-      call checks%check(windows_behind(8) == 4, 'four windows of eight')
-      call checks%check(windows_behind(31) == 4 .and. windows_behind(400) == 4, 'four windows at least')
-   end subroutine test_windows_behind
-
-   !> A motion that ends, or is any other than irregular, gives reason to doubt.
-   subroutine test_doubt_behind(checks)
-      class(check_list_t), intent(inout) :: checks
-      integer, parameter :: regular(4) = [class_quiet, class_creep, class_idle, class_subharmonic]
-      character(*), parameter :: words(4) = [character(11) :: 'quiet', 'creep', 'idle', 'subharmonic']
-      type(rattle_verdict_t) :: verdict
-      integer :: i
-
-      verdict%class = class_irregular
-      call checks%check(.not. is_doubted(doubt_behind(1, status_complete, verdict)), 'irregular still')
-      verdict%class = class_irregular_so_far
-      call checks%check(.not. is_doubted(doubt_behind(1, status_steady, verdict)), 'off the harmonics still')
-call checks%check(doubt_sentence(doubt_behind(1, status_film_lost, verdict)) == 'Behind the window the motion ends as film_lost.', &
-                        'a motion that ends')
-      do i = 1, size(regular)
-         verdict%class = regular(i)
-         call checks%check(doubt_sentence(doubt_behind(i, status_complete, verdict)) == 'The class is that of this window: '// &
-                           trim(merge('1 window ', achar(48 + i)//' windows', i == 1))//' later the motion is '// &
-                           trim(words(i))//'.', 'no more irregular: '//trim(words(i)))
-      end do
-   end subroutine test_doubt_behind
 
    !> Solve and classify a scene alone.
    subroutine solve(speed, amplitude, request, scenes, group)
@@ -126,38 +87,5 @@ call checks%check(doubt_sentence(doubt_behind(1, status_film_lost, verdict)) == 
          call checks%check(.not. verifications(1)%verified, 'half a period late it is another motion')
       end associate
    end subroutine test_phase_of_an_orbit
-
-   !> An irregular motion stays irregular behind its window; one that settles there does not stand, however it looks in its window.
-   subroutine test_behind_the_window(checks)
-      class(check_list_t), intent(inout) :: checks
-
-      call behind('irregular for good', 12.0_dp, 1200.0_dp, 60, .true.)
-      call behind('settles behind its window', 1.905_dp, 400.0_dp, 8, .false.)
-
-   contains
-
-      subroutine behind(what, speed, amplitude, periods, expected)
-         character(*), intent(in) :: what
-         real(dp), intent(in) :: speed
-         real(dp), intent(in) :: amplitude
-         integer, intent(in) :: periods
-         logical, intent(in) :: expected
-         type(prepared_scene_t) :: scenes(1)
-         type(error_t), allocatable :: error
-         type(scene_group_t) :: group, tight
-         type(request_t) :: request
-         type(verification_t) :: verifications(1)
-
-         request = request_t(accuracy=1.0e-6_dp, periods=periods, samples_per_period=samples_per_period, sampled_periods=8)
-         call solve(speed, amplitude, request, scenes, group)
-         call checks%check(group%verdicts(1)%class == class_irregular_so_far, what//': off its harmonics')
-         ! What is known of how neighbouring motions part is not what is asked here.
-         group%verdicts%class = class_irregular
-         group%verdicts%parting%for_good = .true.
-         call verify_windows(scenes, verified_windows_t(), group, tight, verifications, error)
-         call checks%check(verifications(1)%verified .eqv. expected, what)
-      end subroutine behind
-
-   end subroutine test_behind_the_window
 
 end module test_verify_group

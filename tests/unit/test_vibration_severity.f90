@@ -1,13 +1,13 @@
 !> Tests of severity: values of an independent solver, the work of the force, steps and samples of all film laws.
 module test_vibration_severity
    use canonical_scenes, only: canonical_scene
-   use verification, only: severity_error
+   use verification, only: note_severity_errors, verification_t
    use checks, only: check_list_t
    use controlled_engine, only: solve_window
    use engine, only: ending_t, motion_state_t, start_of
    use force, only: force_of_period
    use kinds, only: dp
-   use vibration_severity, only: severity_of_record, severity_of_samples, vibration_severity_t
+   use vibration_severity, only: severity_numbers, severity_of_record, severity_of_samples, vibration_severity_t
    use problem, only: of_film, of_velocity, problem_of, problem_t, static_load
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, rupture_half_pi, rupture_solved, &
                           rupture_solver_fast, rupture_solver_successive, scene_t
@@ -169,15 +169,20 @@ contains
    !> The largest error of the four numbers by a tighter solution, which has one of its own.
    subroutine test_error(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
+      type(verification_t) :: verification
       real(dp) :: tight(4)
       integer :: i
 
       do i = 1, 4
          tight = [1.0_dp, 2.0_dp, 3.0_dp, 4.0_dp]
          tight(i) = 1.01_dp*tight(i)
-         call checks%check_close(severity_error(vibration_severity_t(1.0_dp, 2.0_dp, 3.0_dp, 4.0_dp), &
-                                                vibration_severity_t(tight(1), tight(2), tight(3), tight(4)), 1.0e-10_dp), &
-                                 0.020000002_dp, 1.0e-14_dp, 'error: twice the difference')
+         call note_severity_errors(vibration_severity_t(1.0_dp, 2.0_dp, 3.0_dp, 4.0_dp), &
+                                   vibration_severity_t(tight(1), tight(2), tight(3), tight(4)), 1.0e-10_dp, verification)
+         call checks%check_close(verification%severity_error, 0.020000002_dp, 1.0e-14_dp, 'error: twice the difference')
+         associate (errors => severity_numbers(verification%severity_errors), numbers => [1.0_dp, 2.0_dp, 3.0_dp, 4.0_dp])
+            call checks%check_close(errors(i), 0.020000002_dp*numbers(i), 1.0e-13_dp, 'error: of the number that differs')
+            call checks%check(count(errors > 1.0e-8_dp) == 1, 'error: of no other one')
+         end associate
       end do
    end subroutine test_error
 
