@@ -5,12 +5,15 @@
 !> h is its film, d the compression of its spring, y the state of the film where its law has one. Rigid and elastic teeth, films
 !> with and without a state are contacts of different numbers; one flank or two are one contact or two. Flanks that bend are
 !> compressed by what follows the width of the contact beside d, w(h, W) of module film_law.
+!>
+!> A damped tooth resists its deflection D as well, W = k D + c D' or tau D' = kappa_t W - D with kappa_t = 1/k, tau = c/k. Then d
+!> is no more than the load in other units, and the contact is compressed by d - kappa_t W + D.
 module flank_contact
    use film_law, only: film_kernel, film_load, film_loads, film_t, kept_load, kernel_of, law_words, mixed_film_loads, most_films, &
       never_pulls, new_film, overflow_load, squeeze_velocities, squeeze_velocity, steady_film, width_compression
    use film_state, only: film_response_t, load_t, state_number_t
    use film_states, only: count_of_state, number_of_state, place_of_law, respond_of_state, rest_of_state, words_of_state
-   use flank_elasticity, only: flank_compliance
+   use flank_elasticity, only: flank_compliance, tooth_compliance
    use kinds, only: dp
    use linear_equations, only: solve_linear
    use scene_types, only: film_choice_t, scene_t
@@ -25,6 +28,9 @@ module flank_contact
       integer :: state_law = 0
       !> kappa [m/N]; 0: rigid
       real(dp) :: compliance = 0.0_dp
+      !> tau of a damped tooth [s], and the share of kappa that is the tooth's, which flattens or bends beside it [-]; 0: not damped
+      real(dp) :: retardation = 0.0_dp
+      real(dp) :: damped_share = 0.0_dp
    end type flank_contact_t
 
    !> Equations of films at nodes: h' = w(h, W), the velocity that carries a load, or W(h, h') = W.
@@ -47,9 +53,9 @@ module flank_contact
    !> Slope of the load over the velocity of a film without squeeze, over that slope where it tells no velocity any more
    real(dp), parameter :: flattest = 1.0e3_dp
 
-   public :: contact_of, contact_words, is_elastic, carries_positive_loads, keeps_load, is_costly, inner_count, inner_number, &
-             inner_at_rest, film_under, load_of_contact, load_at_rest, loads_of_contact, mixed_loads, velocity_under, &
-             equations_of_films, compliance_at_rest, kernel_of_contact
+   public :: contact_of, contact_words, is_elastic, is_damped, carries_positive_loads, keeps_load, is_costly, inner_count, &
+             inner_number, inner_at_rest, film_under, load_of_contact, load_at_rest, loads_of_contact, mixed_loads, &
+             velocity_under, equations_of_films, compliance_at_rest, kernel_of_contact
 
 contains
 
@@ -60,6 +66,11 @@ contains
       contact%film = new_film(scene)
       contact%state_law = place_of_law(scene%film%law)
       contact%compliance = flank_compliance(scene)
+      if (.not. scene%contact%damping_ratio > 0.0_dp) return
+      contact%damped_share = tooth_compliance(scene)/contact%compliance
+      ! Slow motions on the stiffness k lose what c = 2 zeta sqrt(k m) loses, whatever part of it is the tooth's.
+      contact%retardation = 2.0_dp*scene%contact%damping_ratio*sqrt(scene%excitation%mass/scene%contact%stiffness) &
+                            /(scene%contact%stiffness*tooth_compliance(scene))
    end function contact_of
 
    !> The law that the group &film chooses, in words.
@@ -88,6 +99,13 @@ contains
 
       is_elastic = contact%compliance > 0.0_dp
    end function is_elastic
+
+   !> Whether its tooth is damped.
+   elemental logical function is_damped(contact)
+      type(flank_contact_t), intent(in) :: contact
+
+      is_damped = contact%retardation > 0.0_dp
+   end function is_damped
 
    !> Numbers of the state of its film.
    elemental integer function inner_count(contact)

@@ -258,6 +258,8 @@ contains
          call tell(scene, 'contact.length', [scene%contact%length], 'm')
          if (scene%contact%backlash > 0.0_dp) call tell(scene, 'contact.backlash', [scene%contact%backlash], 'm')
          if (scene%contact%stiffness > 0.0_dp) call tell(scene, 'contact.stiffness', [scene%contact%stiffness], 'N/m')
+         if (scene%contact%damping_ratio > 0.0_dp) &
+            call tell(scene, 'contact.damping_ratio', [scene%contact%damping_ratio], '-')
          call tell(scene, 'kinematics.entrainment_speed', [scene%kinematics%entrainment_speed], 'm/s')
          call tell(scene, 'load.mass', [excitation%mass], 'kg')
          call tell(scene, 'load.steady_force', [excitation%steady_force], 'N')

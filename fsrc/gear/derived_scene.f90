@@ -41,6 +41,7 @@ contains
       scene%contact%backlash = scene%gear%backlash
       scene%contact%tooth_width = contact%tooth_width
       scene%contact%stiffness = scene%contact%stiffness_of_width(scene%gear%tooth_stiffness)
+      scene%contact%damping_ratio = scene%gear%tooth_damping_ratio
       scene%kinematics%entrainment_speed = contact%entrainment_speed
       scene%excitation%mass = contact%mass
       scene%excitation%steady_force = contact%steady_force

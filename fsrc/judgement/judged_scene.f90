@@ -17,7 +17,7 @@ module judged_scene
    use quantities
    use carried_loads, only: contact_film
    use flank_contact, only: is_elastic, of_central_film, of_film_at_pressure, of_pressure
-   use problem, only: contact_count, inner_places
+   use problem, only: contact_count, has_damped_teeth, inner_places
    use rattle_class, only: rattle_verdict_t
    use regime, only: deflection_limit, film_elastohydrodynamic
    use regime_check, only: closure_range, model_limit, regime_verdict_t
@@ -188,6 +188,11 @@ contains
             value = judged%severity%dissipated_energy
          case (quantity_dissipated_power)
             value = judged%severity%dissipated_energy*judged%resolved%problem%frequency
+         case (quantity_film_dissipated_power)
+            if (has_damped_teeth(problem)) &
+               value = (judged%severity%dissipated_energy - judged%severity%tooth_energy)*problem%frequency
+         case (quantity_tooth_dissipated_power)
+            if (has_damped_teeth(problem)) value = judged%severity%tooth_energy*problem%frequency
          case (quantity_model_limit)
             value = minval(lowest(seen_films(:contact_count(problem)))%value)
             value = real(model_limit(value, highest(seen_films(1))%value, problem%contact%film%radius), dp)

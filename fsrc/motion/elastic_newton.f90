@@ -65,7 +65,7 @@ contains
       of_velocities = .false.
       last_change = huge(1.0_dp)
       ! What an error of one in the loads moves the films by
-      reach = max(block%step(lane)*min(block%step(lane), 1.0_dp/free_rate), block%compliance(lane))
+      reach = max(block%step(lane)*min(block%step(lane), 1.0_dp/free_rate), trial%most_yield)
       trial%film(:, 1) = trial%start(1)
       trial%film(:, 2) = trial%start(2)
       call follow_loads(contact, lane, force, block, trial)
@@ -82,7 +82,7 @@ contains
          if (.not. found) return
          if (anew) then
             if (inner%count > 0) then
-               call inner_matrix(lane, block, trial%flanks, inner_trial%responses, matrix)
+               call inner_matrix(lane, block, trial, inner_trial%responses, matrix)
             else
                call newton_matrix(contact%film%bends, lane, block, trial, slopes, matrix)
             end if
@@ -215,7 +215,8 @@ contains
          loads(:, flank) = trial%load(:, flank)*block%force_scale(lane)
          velocities(:, flank) = trial%velocity(:, flank)*block%velocity_scale(lane)
       end do
-      call equations_of_films(contact, n, films, loads, velocities, velocity_share*block%compliance(lane)/block%step(lane)* &
+      call equations_of_films(contact, n, films, loads, velocities, velocity_share*block%compliance(lane)/ &
+                              (block%step(lane) + velocity_share*block%retardation(lane))* &
                               (block%velocity_scale(lane)/block%force_scale(lane)), laws)
       slopes%of_velocities(:n) = laws%of_velocities(:n)
       right(n + 1:) = 0.0_dp
@@ -309,6 +310,13 @@ contains
                   matrix(first + 1:first + rows, stages*(other - 1) + j) = turn*by_gear
                end do
                column = stages*(flank - 1) + j
+               if (trial%damped) then
+                  moved = trial%yields(:, j)
+                  if (bends) moved = moved*(1.0_dp + trial%follows(:, flank))
+                  call weigh(slope_rows, moved, rates)
+                  matrix(first + 1:first + rows, column) = matrix(first + 1:first + rows, column) + &
+                                                           (by_film*moved + by_velocity*rates/s)
+               end if
                matrix(first + 1:first + rows, column) = matrix(first + 1:first + rows, column) + &
                                                         (trial%compliance(j, flank)/s)*by_velocity*slope_rows(:, j)
                matrix(first + j, column) = matrix(first + j, column) + (by_load(j) + by_film(j)*trial%compliance(j, flank))

@@ -97,7 +97,7 @@ contains
 
       error = huge(1.0_dp)
       if (block%accepted(lane) > 0.0_dp) then
-         associate (s => block%step(lane), kappa => block%compliance(lane))
+         associate (s => block%step(lane), kappa => trial%most_yield)
             call weigh(power_rows, trial%acceleration, polynomial(:, 0))
             error = error_of_acceleration(polynomial(:stages, 0), s, 1.0_dp/free_rate)
             do flank = 1, trial%flanks
@@ -119,6 +119,12 @@ contains
       block%next_film(lane) = trial%film(stages, 1)
       block%next_lienard(lane) = trial%lienard(stages)
       block%next_compression(lane, :trial%flanks) = block%compliance(lane)*trial%load(stages, :trial%flanks)
+      if (trial%damped) then
+         do flank = 1, trial%flanks
+            block%next_compression(lane, trial%flanks + flank) = block%compression(lane, trial%flanks + flank, 0) + &
+                                                                 trial%deflection(stages, flank)
+         end do
+      end if
       block%polynomial(lane, :) = polynomial(:stages, 0)
       block%load_polynomial(lane, :, :trial%flanks) = polynomial(:stages, 1:trial%flanks)
       block%last_step(lane) = block%step(lane)
@@ -147,10 +153,33 @@ contains
                scale = scale/s
                block%compression(lane, flank, j) = shifted(j)*scale
             end do
-            if (flank == 1) block%film(lane, 1:stages) = block%film(lane, 1:stages) + block%compression(lane, 1, 1:stages)
+            if (trial%damped) call add_deflection(lane, flank, trial, block)
+            if (flank == 1 .and. .not. trial%damped) &
+               block%film(lane, 1:stages) = block%film(lane, 1:stages) + block%compression(lane, 1, 1:stages)
          end do
       end associate
    end subroutine series_of_step
+
+   !> Power series of the deflection of a damped tooth; that of the drive flank is added to the series of the film.
+   pure subroutine add_deflection(lane, flank, trial, block)
+      integer, intent(in) :: lane
+      integer, intent(in) :: flank
+      type(trial_t), intent(in) :: trial
+      type(lane_block_t), intent(inout) :: block
+      real(dp) :: shifted(0:stages), scale
+      integer :: place, j
+
+      shifted = powers_of_place(matmul(power, trial%deflection(:stages, flank)))
+      call meet_start(0.0_dp, shifted)
+      place = trial%flanks + flank
+      scale = 1.0_dp
+      do j = 1, stages
+         scale = scale/block%step(lane)
+         block%compression(lane, place, j) = shifted(j)*scale
+      end do
+      if (flank == 1) block%film(lane, 1:stages) = block%film(lane, 1:stages) + block%compression(lane, place, 1:stages) + &
+                                                   (1.0_dp - block%damped_share(lane))*block%compression(lane, 1, 1:stages)
+   end subroutine add_deflection
 
    !> Add the compression of the drive flank by its width to the series of the film.
    pure subroutine add_width(lane, trial, block)

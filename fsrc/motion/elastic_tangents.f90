@@ -72,8 +72,8 @@ contains
       call factorise(stages*trial%flanks, rows*trial%flanks, matrix, factors)
       call width_slopes(contact, lane, block, trial, by_film, by_load)
       do i = 1, size(tangents%now, 2)
-         call carry(contact%film%bends, block%step(lane), block%compliance(lane), trial, slopes, factors, by_film, by_load, &
-                    tangents%now(:, i))
+         call carry(contact%film%bends, block%step(lane), block%compliance(lane), block%damped_share(lane), trial, slopes, &
+                    factors, by_film, by_load, tangents%now(:, i))
       end do
    end subroutine carry_tangents
 
@@ -100,13 +100,14 @@ contains
    end subroutine width_slopes
 
    !> Carry one displacement.
-   pure subroutine carry(bends, step, compliance, trial, slopes, factors, by_film, by_load, tangent)
+   pure subroutine carry(bends, step, compliance, damped_share, trial, slopes, factors, by_film, by_load, tangent)
       !> Whether flanks bend
       logical, intent(in) :: bends
       !> [periods]
       real(dp), intent(in) :: step
-      !> Of a spring [-]
+      !> Of a spring, and the share of a damped tooth in it [-]
       real(dp), intent(in) :: compliance
+      real(dp), intent(in) :: damped_share
       type(trial_t), intent(in) :: trial
       type(slopes_t), intent(in) :: slopes
       type(factors_t), intent(in) :: factors
@@ -115,9 +116,9 @@ contains
       real(dp), intent(in) :: by_load(2)
       !> Number of the state
       real(dp), intent(inout) :: tangent(:)
-      real(dp), dimension(rows, 2) :: gap, film, loads
-      real(dp), dimension(rows) :: yielded, rate, acceleration, once, twice
-      real(dp) :: right(most_rows), solution(most_columns), start(2), springs(2), width(2)
+      real(dp), dimension(rows, 2) :: gap, film, loads, kept
+      real(dp), dimension(rows) :: yielded, rate, acceleration, once, twice, moved
+      real(dp) :: right(most_rows), solution(most_columns), start(2), springs(2), teeth(2), width(2), more
       integer :: flank, first
 
       springs = 0.0_dp
@@ -126,12 +127,26 @@ contains
       width(1) = by_film(1)*start(1) + by_load(1)*springs(1)
       start(2) = (sum(springs) - start(1) + width(1) + by_load(2)*springs(2))/(1.0_dp - by_film(2))
       width(2) = by_film(2)*start(2) + by_load(2)*springs(2)
+      if (trial%damped) then
+         ! Contacts stand compressed by what teeth are deflected by, and keep a part of that if no load is left.
+         teeth = 0.0_dp
+         teeth(:trial%flanks) = tangent(of_drive_compression + trial%flanks:of_velocity + 2*trial%flanks)
+         more = sum(teeth - damped_share*springs)/(1.0_dp - by_film(2))
+         start(2) = start(2) + more
+         width(2) = width(2) + by_film(2)*more
+         call weigh(trial%retards, spread(1.0_dp, 1, rows), moved)
+         do flank = 1, trial%flanks
+            kept(:, flank) = damped_share*springs(flank) - moved*teeth(flank)
+         end do
+      end if
       ! What the laws miss if no load changes
       right = 0.0_dp
       do flank = 1, trial%flanks
          gap(:, flank) = start(flank) - width(flank) - springs(flank) + sign_of(flank)*step*node_rows*tangent(of_velocity)
+         if (trial%damped) gap(:, flank) = gap(:, flank) + kept(:, flank)
          film(:, flank) = gap(:, flank)
          yielded = -springs(flank)
+         if (trial%damped) yielded = yielded + kept(:, flank)
          if (bends) then
             film(:, flank) = gap(:, flank)*(1.0_dp + trial%follows(:, flank))
             yielded = yielded + (trial%follows(:, flank)*gap(:, flank) - width(flank))
@@ -153,6 +168,16 @@ contains
       call weigh(twice_rows, acceleration, twice)
       tangent(of_film) = film(stages, 1) + step**2*twice(stages) + trial%compliance(stages, 1)*loads(stages, 1)
       if (bends) tangent(of_film) = tangent(of_film) + trial%follows(stages, 1)*step**2*twice(stages)
+      if (trial%damped) then
+         call weigh(trial%yields, loads(:, 1), moved)
+         tangent(of_film) = tangent(of_film) + (1.0_dp + trial%follows(stages, 1))*moved(stages)
+         do flank = 1, trial%flanks
+            ! Without a load the tooth goes back; loads deflect it anew.
+            moved = damped_share*compliance*loads(:, flank) - teeth(flank)
+            call weigh(trial%retards, moved, yielded)
+            tangent(of_velocity + trial%flanks + flank) = teeth(flank) + yielded(stages)
+         end do
+      end if
       tangent(of_velocity) = tangent(of_velocity) + step*once(stages)
       tangent(of_drive_compression:of_velocity + trial%flanks) = compliance*loads(stages, :trial%flanks)
    end subroutine carry

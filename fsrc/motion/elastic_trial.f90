@@ -6,9 +6,10 @@ module elastic_trial
    use film_state, only: load_t
    use flank_contact, only: carries_positive_loads, flank_contact_t, load_of_contact
    use kinds, only: dp
-   use lane_block, only: lane_block_t
+   use lane_block, only: given_way, lane_block_t
    use lane_state, only: lane_inner_t
-   use radau_nodes, only: node_rows, once_rows, rows, slope_rows, twice_rows, weigh
+   use linear_equations, only: solve_linear
+   use radau_nodes, only: node_rows, once_rows, row_of, rows, slope, slope_rows, stages, twice_rows, weigh
    use taylor_step_control, only: sign_of
    implicit none(type, external)
    private
@@ -24,8 +25,14 @@ module elastic_trial
       !> which may fall to nothing
       real(dp) :: gain(rows, 2) = 0.0_dp, counted(2) = 0.0_dp
       !> Compression of flanks that bend by their width, at the start too; how the compression follows the film, as a share of the
-      !> gear's displacement, and what a load moves its film by
+      !> gear's displacement, and what a load moves its film by, beside what a damped tooth yields
       real(dp) :: width(rows, 2) = 0.0_dp, start_width(2) = 0.0_dp, follows(rows, 2) = 0.0_dp, compliance(rows, 2) = 0.0_dp
+      !> Deflections of damped teeth since the start, and the share of those at the start that loads have to hold against; what the
+      !> loads at the nodes compress a contact by: node of the compression, node of the load
+      real(dp) :: deflection(rows, 2) = 0.0_dp, lag(2) = 0.0_dp, yields(rows, stages) = 0.0_dp
+      !> Of these what the tooth takes, I + tau/s d/dc inverted; the most that a load moves a compression by, kappa without damping
+      real(dp) :: retards(rows, stages) = 0.0_dp, most_yield = 0.0_dp
+      logical :: damped = .false.
       !> A, and of the gear V and Z - Z at the start
       real(dp) :: acceleration(rows) = 0.0_dp, lienard(rows) = 0.0_dp, displacement(rows) = 0.0_dp
    end type trial_t
@@ -43,9 +50,13 @@ contains
       real(dp) :: scale, load, by_film, by_load
       integer :: flank
 
-      trial%compliance = block%compliance(lane)
+      trial%compliance = merge(0.0_dp, block%compliance(lane), block%retardation(lane) > 0.0_dp)
       trial%start(1) = block%film(lane, 0)
-      if (trial%flanks == 2) trial%start(2) = block%backlash(lane) - block%film(lane, 0) + sum(block%compression(lane, :, 0))
+      if (trial%flanks == 2) trial%start(2) = block%backlash(lane) - block%film(lane, 0) + &
+                                              given_way(block%compression(lane, :, 0), lane, block)
+      trial%damped = block%retardation(lane) > 0.0_dp
+      trial%most_yield = block%compliance(lane)
+      if (trial%damped) call retard(lane, block, trial)
       if (.not. contact%film%bends) return
       scale = block%film_scale(lane)
       do flank = 1, trial%flanks
@@ -58,6 +69,33 @@ contains
          trial%start_width(flank) = trial%start_width(flank)/scale
       end do
    end subroutine start_films
+
+   !> How damped teeth follow their loads through the step: with D' = sum(slope_ij (D_j - D(0)))/s the deflections hold
+   !> tau D' = kappa_t W - D at the nodes by a matrix of numbers, whatever tau is.
+   pure subroutine retard(lane, block, trial)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      type(trial_t), intent(inout) :: trial
+      real(dp) :: matrix(stages, stages), inverse(stages, stages)
+      logical :: solved
+      integer :: i
+
+      inverse = 0.0_dp
+      do i = 1, stages
+         inverse(i, i) = 1.0_dp
+      end do
+      matrix = inverse + block%retardation(lane)/block%step(lane)*slope
+      call solve_linear(matrix, inverse, solved)
+      associate (share => block%damped_share(lane))
+         trial%retards = inverse(row_of, :)
+         trial%yields = share*trial%retards
+         do i = 1, rows
+            trial%yields(i, row_of(i)) = trial%yields(i, row_of(i)) + (1.0_dp - share)
+         end do
+         trial%yields = block%compliance(lane)*trial%yields
+      end associate
+      trial%most_yield = maxval(abs(trial%yields))
+   end subroutine retard
 
    !> First iterate: the polynomials of the step before, or the loads at its end where they would be carried too far.
    pure subroutine first_loads(lane, block, contact, inner, trial)
@@ -74,6 +112,10 @@ contains
       base = 0.0_dp
       do flank = 1, trial%flanks
          trial%counted(flank) = merge(0.0_dp, block%compression(lane, flank, 0), from_start)
+         if (trial%damped) then
+            trial%lag(flank) = block%compression(lane, trial%flanks + flank, 0)
+            if (from_start) trial%lag(flank) = trial%lag(flank) - block%damped_share(lane)*block%compression(lane, flank, 0)
+         end if
          if (from_start) base = start_load(lane, block, contact, inner, flank)
          if (can_extrapolate(lane, block)) then
             call carry_on(block%load_polynomial(lane, :, flank), block%step(lane)/block%last_step(lane), trial%gain(:, flank))
@@ -134,6 +176,7 @@ contains
          trial%displacement = s*(node_rows*block%lienard(lane, 0) + s*twice)
          do flank = 1, trial%flanks
             yielded(:, flank) = kappa*trial%gain(:, flank) - trial%counted(flank)
+            if (trial%damped) call deflect(kappa, block%damped_share(lane), flank, yielded(:, flank), trial)
             gap(:, flank) = trial%start(flank) + (sign_of(flank)*trial%displacement + yielded(:, flank))
          end do
          if (contact%film%bends) then
@@ -147,6 +190,22 @@ contains
          end do
       end associate
    end subroutine follow_loads
+
+   !> Compressions of a contact whose tooth is damped, from those without damping.
+   pure subroutine deflect(compliance, share, flank, yielded, trial)
+      !> kappa, and the share of the damped tooth in it [-]
+      real(dp), intent(in) :: compliance
+      real(dp), intent(in) :: share
+      integer, intent(in) :: flank
+      !> Since the start [-]
+      real(dp), intent(inout) :: yielded(rows)
+      type(trial_t), intent(inout) :: trial
+      real(dp) :: behind(rows)
+
+      behind = share*compliance*trial%gain(:, flank) - trial%lag(flank)
+      call weigh(trial%retards, behind, trial%deflection(:, flank))
+      yielded = (1.0_dp - share)*yielded + trial%deflection(:, flank)
+   end subroutine deflect
 
    !> Films of flanks that bend, from those that would be there if their width stayed what it was, and their compressions. They are
    !> looked for from where they were found last.
@@ -174,7 +233,9 @@ contains
             trial%width(:, flank) = trial%film(:, flank) - (gap(:, flank) - trial%start_width(flank))
             yielded(:, flank) = yielded(:, flank) + (trial%width(:, flank) - trial%start_width(flank))
             trial%follows(:, flank) = by_gap(:, flank)
-            trial%compliance(:, flank) = block%compliance(lane)*(1.0_dp + by_gap(:, flank)) + by_load(:, flank)*(unit/scale)
+            trial%compliance(:, flank) = by_load(:, flank)*(unit/scale)
+            if (.not. trial%damped) &
+               trial%compliance(:, flank) = block%compliance(lane)*(1.0_dp + by_gap(:, flank)) + trial%compliance(:, flank)
          end do
       end associate
    end subroutine bend

@@ -12,7 +12,7 @@ module film_series
    use lane_functions, only: lanes
    use load_expansion, only: expand_load, expand_squeeze
    use load_pieces, only: exact_load, load_limit, published_load
-   use problem, only: has_elastic_teeth, has_two_flanks, problem_t
+   use problem, only: has_damped_teeth, has_elastic_teeth, has_two_flanks, problem_t
    use reynolds_piezo_expansion, only: expand_reynolds_piezo
    use taylor_iso_viscous, only: iso_viscous_series
    use taylor_piezo_viscous, only: piezo_viscous_series, reject_unresolved_growth
@@ -79,6 +79,8 @@ contains
       end select
       series%never_pulls = problem%contact%film%kernel == kernel_piezo
       series%springs = has_elastic_teeth(problem)
+      ! The velocity of a film beside a damped tooth is no function of its load alone.
+      if (has_damped_teeth(problem)) series%exists = .false.
    end function series_of
 
    !> Whether a problem has a Taylor series that is good enough.

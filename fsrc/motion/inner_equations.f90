@@ -77,17 +77,17 @@ contains
    end subroutine inner_residuals
 
    !> Newton's matrix of films with a state.
-   pure subroutine inner_matrix(lane, block, flanks, responses, matrix)
+   pure subroutine inner_matrix(lane, block, trial, responses, matrix)
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
-      integer, intent(in) :: flanks
+      type(trial_t), intent(in) :: trial
       type(step_response_t), intent(in) :: responses(2)
       real(dp), intent(out) :: matrix(most_rows, most_columns)
       real(dp), dimension(stages, stages) :: by_film, by_velocity, by_gear
       integer :: first, column, flank, other, i
 
       matrix = 0.0_dp
-      associate (s => block%step(lane), kappa => block%compliance(lane))
+      associate (s => block%step(lane), kappa => block%compliance(lane), flanks => trial%flanks)
          do flank = 1, flanks
             first = rows*(flank - 1)
             column = stages*(flank - 1)
@@ -97,8 +97,13 @@ contains
             do other = 1, flanks
                matrix(first + 1:first + stages, stages*(other - 1) + 1:stages*other) = sign_of(flank)*sign_of(other)*by_gear
             end do
+            if (trial%damped) then
+               by_gear = matmul(by_film + matmul(by_velocity, slope)/s, trial%yields(:stages, :))
+            else
+               by_gear = kappa*(by_film + matmul(by_velocity, slope)/s)
+            end if
             matrix(first + 1:first + stages, column + 1:column + stages) = &
-               matrix(first + 1:first + stages, column + 1:column + stages) + kappa*(by_film + matmul(by_velocity, slope)/s)
+               matrix(first + 1:first + stages, column + 1:column + stages) + by_gear
             do i = 1, stages
                matrix(first + i, column + i) = matrix(first + i, column + i) + 1.0_dp
             end do

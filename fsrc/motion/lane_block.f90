@@ -39,12 +39,15 @@ module lane_block
       real(dp) :: widest_film(lanes)
       !> Of elastic teeth: series of both films H and C
       real(dp) :: films(lanes, 0:order, 2)
-      !> and compliance, scaled; series of the compressions d_1 and d_2
-      real(dp) :: compliance(lanes), compression(lanes, 2, 0:order)
+      !> and compliance, scaled; series of the compressions d_1 and d_2, behind those of one or two flanks the deflections of damped
+      !> teeth
+      real(dp) :: compliance(lanes), compression(lanes, 4, 0:order)
+      !> and of damped teeth tau [periods] and their share of the compliance; 0: not damped
+      real(dp) :: retardation(lanes), damped_share(lanes)
       !> and of collocation, polynomials of both loads in the last step, as they count there (module elastic_trial)
       real(dp) :: load_polynomial(lanes, stages, 2)
       !> and the compressions that the step leads to
-      real(dp) :: next_compression(lanes, 2)
+      real(dp) :: next_compression(lanes, 4)
       !> Accuracy [-]
       real(dp) :: accuracy(lanes)
       !> Series of H and of V, Lienard's variable or the velocity; coefficients 0 are the state
@@ -85,7 +88,8 @@ module lane_block
    !> Scaled film that counts as lost [-]
    real(dp), parameter, public :: lost_film = 1.0e-9_dp
 
-   public :: place_block, load_problem, rest_lane, start_period, slip_velocity, start_status, lane_accuracy
+   public :: place_block, load_problem, rest_lane, start_period, slip_velocity, start_status, lane_accuracy, &
+             given_way
 
 contains
 
@@ -178,6 +182,8 @@ contains
       block%lienard(lane, 0) = start%numbers(of_velocity)/block%velocity_scale(lane)
       if (start%carried_on) block%lienard(lane, 0) = start%lienard_variable
       block%compliance(lane) = problem%contact%compliance*(force_scale/film_scale)
+      block%retardation(lane) = problem%contact%retardation*problem%frequency
+      block%damped_share(lane) = problem%contact%damped_share
       block%compression(lane, :, 0) = 0.0_dp
       springs = compression_count(problem)
       block%compression(lane, :springs, 0) = start%numbers(of_drive_compression:of_velocity + springs)/film_scale
@@ -207,6 +213,8 @@ contains
       block%lienard(lane, :) = 0.0_dp
       block%film(lane, 0) = 1.0_dp
       block%damping_rate(lane) = 0.0_dp
+      block%retardation(lane) = 0.0_dp
+      block%damped_share(lane) = 0.0_dp
       block%compliance(lane) = 0.0_dp
       call start_period(lane, block)
       ! Springs that carry the static load
@@ -239,6 +247,20 @@ contains
       block%piezo_expansion(1)%lienard(lane) = block%lienard(lane, 0)
       block%piezo_expansion(2)%lienard(lane) = -block%lienard(lane, 0)
    end subroutine start_period
+
+   !> By how much both contacts together stand compressed, but for what follows their width [-].
+   pure real(dp) function given_way(compressions, lane, block)
+      !> d_1 and d_2, and of damped teeth D_1 and D_2 [-]
+      real(dp), intent(in) :: compressions(:)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+
+      if (block%retardation(lane) > 0.0_dp) then
+         given_way = (1.0_dp - block%damped_share(lane))*sum(compressions(:2)) + sum(compressions(3:4))
+      else
+         given_way = sum(compressions(:2))
+      end if
+   end function given_way
 
    !> H' less V at some film.
    pure real(dp) function slip_velocity(film, lane, block)

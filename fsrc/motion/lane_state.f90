@@ -3,7 +3,7 @@
 module lane_state
    use engine, only: motion_state_t
    use kinds, only: dp
-   use lane_block, only: lane_block_t, slip_velocity
+   use lane_block, only: given_way, lane_block_t, slip_velocity
    use problem, only: of_drive_compression, of_film, of_velocity, contact_count, inner_places, problem_t, state_numbers
    use radau_nodes, only: stages
    use taylor_step_control, only: order
@@ -74,6 +74,7 @@ contains
       type(lane_block_t), intent(in) :: block
 
       carried_numbers = merge(flanks_of(lane, block), 0, block%compliance(lane) > 0.0_dp)
+      if (block%retardation(lane) > 0.0_dp) carried_numbers = 2*carried_numbers
    end function carried_numbers
 
    !> Numbers of the state of the motion in a lane.
@@ -146,8 +147,9 @@ contains
       type(lane_block_t), intent(in) :: block
       real(dp) :: films(2)
 
-      films = [state(of_film), block%backlash(lane) - state(of_film) + &
-               sum(state(of_drive_compression:of_velocity + carried_numbers(lane, block)))]
+      films = [state(of_film), block%backlash(lane) - state(of_film)]
+      if (flanks_of(lane, block) == 2 .and. block%compliance(lane) > 0.0_dp) &
+         films(2) = films(2) + given_way(state(of_drive_compression:of_velocity + carried_numbers(lane, block)), lane, block)
    end function films_of_lane
 
    !> The thinner one of them [-].

@@ -92,7 +92,7 @@ module radau_nodes
    !> Rows of a table that fills registers: one for each node, that of the last node twice
    integer, parameter, public :: rows = 8
    !> Nodes, and the tables above, in rows: the integrals, the slopes, and the coefficients of the powers of 2c - 1
-   integer, parameter :: row_of(rows) = [(min(i, stages), i=1, rows)]
+   integer, parameter, public :: row_of(rows) = [(min(i, stages), i=1, rows)]
    real(dp), parameter, public :: node_rows(rows) = node(row_of)
    real(dp), parameter, public :: once_rows(rows, stages) = once(row_of, :), twice_rows(rows, stages) = twice(row_of, :), &
                                   slope_rows(rows, stages) = slope(row_of, :), power_rows(rows, stages) = power(row_of, :)

@@ -13,8 +13,8 @@ module window_record
    use load_record, only: load_record_t, record_loads, start_loads
    use node_extremes, only: block_nodes, block_pieces, extreme_t, find_extremes, seen_acceleration, seen_films, seen_loads, &
       seen_net_load, seen_position, seen_pressure, seen_quantities, seen_velocity
-   use carried_loads, only: contact_films, contact_loads, gear_positions, largest_pressures
-   use problem, only: contact_count, most_contacts, of_velocity, problem_t, static_load
+   use carried_loads, only: contact_films, contact_loads, gear_positions, largest_pressures, tooth_powers
+   use problem, only: contact_count, has_damped_teeth, most_contacts, of_velocity, problem_t, static_load
    use step_nodes, only: node_place, node_weight, nodes_per_piece, step_nodes_t
    implicit none(type, external)
    private
@@ -56,6 +56,8 @@ module window_record
       real(dp) :: film_work = 0.0_dp
       real(dp) :: force_work = 0.0_dp
       real(dp) :: work_size = 0.0_dp
+      !> Energy that damped teeth lose [J]
+      real(dp) :: tooth_loss = 0.0_dp
       !> Sums over the periods of T c_n and of |T c_n|**2, n from 0 to multiples [m/s], [m2/s2]
       complex(dp), allocatable :: harmonic_sums(:)
       real(dp), allocatable :: harmonic_squares(:)
@@ -214,6 +216,8 @@ contains
       record%film_work = record%film_work + film_work*period
       record%force_work = record%force_work + force_work*period
       record%work_size = record%work_size + work_size*period
+      if (has_damped_teeth(problem)) record%tooth_loss = record%tooth_loss + &
+                                                         dot_product(weights(:n), tooth_powers(problem, states))*period
 
       if (record%multiples > 0) then
          call add_integrals(weights(:n)*velocities(:n), cosine, sine, record%integrals)

@@ -9,15 +9,15 @@ module carried_loads
    use flank_contact, only: carries_positive_loads, loads_of_contact, of_gap, of_pressure, of_smallest_film, velocity_under
    use force, only: force_at, force_of_period, largest_oscillation
    use kinds, only: dp
-   use problem, only: coast_flank, compression_count, contact_count, drive_flank, has_elastic_teeth, has_inner_numbers, &
-      has_two_flanks, inner_places, of_coast_compression, of_drive_compression, of_film, of_velocity, problem_t, state_numbers, &
-      static_load
+   use problem, only: coast_flank, compression_count, contact_count, drive_flank, deflection_places, has_damped_teeth, &
+      has_elastic_teeth, has_inner_numbers, has_two_flanks, inner_places, of_coast_compression, of_drive_compression, of_film, &
+      of_velocity, problem_t, state_numbers, static_load
    use scene_types, only: least_static_load
    implicit none(type, external)
    private
 
    public :: thinnest_film, net_load, net_loads, contact_loads, contact_load, contact_films, contact_film, films_of, &
-             gear_positions, counts_as, sizes_of_state, largest_pressures, largest_pressure, acceleration_at, &
+             gear_positions, tooth_powers, counts_as, sizes_of_state, largest_pressures, largest_pressure, acceleration_at, &
              accelerations_of_samples
 
 contains
@@ -212,11 +212,47 @@ contains
          return
       end if
       films = problem%backlash - states(:, of_film)
-      if (has_elastic_teeth(problem)) films = films + (states(:, of_drive_compression) + states(:, of_coast_compression))
+      if (has_elastic_teeth(problem)) films = films + (compressions(problem, drive_flank, states) + &
+                                                       compressions(problem, coast_flank, states))
       if (.not. problem%contact%film%bends) return
       films = films + drive_widths(problem, states)
       films = film_over_gap(problem%contact%film, films, states(:, of_coast_compression)/problem%contact%compliance, films)
    end function coast_films
+
+   !> By how much a contact stands compressed, but for what follows its width [m].
+   pure function compressions(problem, contact, states)
+      !> With elastic teeth
+      type(problem_t), intent(in) :: problem
+      integer, intent(in) :: contact
+      !> State, number of it
+      real(dp), intent(in) :: states(:, :)
+      real(dp) :: compressions(size(states, 1))
+      integer :: places(2)
+
+      compressions = states(:, of_velocity + contact)
+      if (.not. has_damped_teeth(problem)) return
+      places = deflection_places(problem)
+      compressions = (1.0_dp - problem%contact%damped_share)*compressions + states(:, places(1) + contact - 1)
+   end function compressions
+
+   !> Power that damped teeth lose, c D'^2 with tau D' = kappa_t W - D [W]; 0 of others.
+   pure function tooth_powers(problem, states) result(powers)
+      type(problem_t), intent(in) :: problem
+      !> State, number of it
+      real(dp), intent(in) :: states(:, :)
+      real(dp) :: powers(size(states, 1))
+      integer :: places(2), contact
+
+      powers = 0.0_dp
+      if (.not. has_damped_teeth(problem)) return
+      places = deflection_places(problem)
+      associate (share => problem%contact%damped_share)
+         do contact = 1, contact_count(problem)
+            powers = powers + (share*states(:, of_velocity + contact) - states(:, places(1) + contact - 1))**2 &
+                     /(share*problem%contact%compliance*problem%contact%retardation)
+         end do
+      end associate
+   end function tooth_powers
 
    !> A number of the states of a flank whose film is solved in nodes.
    pure function nodal_numbers(problem, contact, which, states) result(numbers)
@@ -272,7 +308,7 @@ contains
          return
       end if
       positions = states(:, of_film)
-      if (has_elastic_teeth(problem)) positions = positions - states(:, of_drive_compression)
+      if (has_elastic_teeth(problem)) positions = positions - compressions(problem, drive_flank, states)
       if (problem%contact%film%bends) positions = positions - drive_widths(problem, states)
    end function gear_positions
 

@@ -10,13 +10,16 @@
 !>     W(h_1, h_1') = d_1/kappa ,   d_1 = h_1 - z ,      W(h_2, h_2') = d_2/kappa ,   d_2 = h_2 - (b - z) ,
 !>     m z'' = (d_1 - d_2)/kappa - F(t) - m g .
 !>
+!> A damped tooth deflects by a D of its own, tau D' = d - D (module flank_contact), and D stands in the place of d in h_1 and h_2.
+!>
 !> The state of a motion is h_1 and z', with elastic teeth also d_1, and d_2 where there are two flanks (a compression keeps its
-!> digits however stiff the tooth is, a position would not), and where films have a state of their own the numbers of both.
+!> digits however stiff the tooth is, a position would not), of damped teeth D_1 and D_2, and where films have a state of their own
+!> the numbers of both.
 module problem
    use film_law, only: width_compression
    use film_state, only: load_t, state_number_t
-   use flank_contact, only: contact_of, film_under, flank_contact_t, inner_count, inner_number, is_elastic, load_at_rest, &
-      compliance_at_rest
+   use flank_contact, only: contact_of, film_under, flank_contact_t, inner_count, inner_number, is_damped, is_elastic, &
+      load_at_rest, compliance_at_rest
    use force, only: force_of, force_t, largest_oscillation, largest_size
    use kinds, only: dp
    use scene_types, only: least_static_load, scene_t
@@ -44,7 +47,8 @@ module problem
    integer, parameter, public :: most_contacts = 2, drive_flank = 1, coast_flank = 2
 
    !> Places of the numbers of a state: film of the drive flank h_1 [m], velocity z' [m/s], and of elastic teeth compressions d_1
-   !> and d_2 [m]; behind them stand the states of the films, of the drive flank and then of the coast flank.
+   !> and d_2 [m]; behind them stand deflections of damped teeth, and the states of the films, of the drive flank and then of the
+   !> coast flank.
    integer, parameter, public :: of_film = 1, of_velocity = 2, of_drive_compression = 3, of_coast_compression = 4
 
    !> The film in the neighbourhood of rest, h'' + d h' + k h = 0 with the period of the force as the unit of time.
@@ -57,10 +61,11 @@ module problem
       real(dp) :: rate = huge(1.0_dp)
    end type settling_t
 
-   public :: problem_of, has_two_flanks, has_elastic_teeth, has_inner_numbers, same_kind, contact_count, compression_count, &
-             moving_numbers, state_size, state_numbers, inner_places, static_load, largest_applied_force, force_to_resolve, &
-             closing_velocity, film_at_rest, films_at_rest, films_near_rest, rigid_films, film_unit, thinner_in_units, &
-             acceleration_by_lengths, loads_at_rest, reference_films, reference_film, thinner_film, linearise, settling_of
+   public :: problem_of, has_two_flanks, has_elastic_teeth, has_damped_teeth, has_inner_numbers, same_kind, contact_count, &
+             compression_count, deflection_places, moving_numbers, state_size, state_numbers, inner_places, static_load, &
+             largest_applied_force, force_to_resolve, closing_velocity, film_at_rest, films_at_rest, films_near_rest, rigid_films, &
+             film_unit, thinner_in_units, acceleration_by_lengths, loads_at_rest, reference_films, reference_film, thinner_film, &
+             linearise, settling_of
 
 contains
 
@@ -108,6 +113,13 @@ contains
       has_elastic_teeth = is_elastic(problem%contact)
    end function has_elastic_teeth
 
+   !> Whether they are damped.
+   elemental logical function has_damped_teeth(problem)
+      type(problem_t), intent(in) :: problem
+
+      has_damped_teeth = is_damped(problem%contact)
+   end function has_damped_teeth
+
    !> Whether motions of two problems go by the same equations: films of one law, flanks and numbers alike.
    elemental logical function same_kind(problem, other)
       type(problem_t), intent(in) :: problem
@@ -116,7 +128,8 @@ contains
       same_kind = problem%contact%film%kernel == other%contact%film%kernel .and. &
                   problem%contact%state_law == other%contact%state_law .and. &
                   (has_two_flanks(problem) .eqv. has_two_flanks(other)) .and. &
-                  (has_elastic_teeth(problem) .eqv. has_elastic_teeth(other))
+                  (has_elastic_teeth(problem) .eqv. has_elastic_teeth(other)) .and. &
+                  (has_damped_teeth(problem) .eqv. has_damped_teeth(other))
    end function same_kind
 
    !> Whether contacts have numbers of their own, beside film and velocity.
@@ -143,12 +156,21 @@ contains
       closing_velocity = merge(-velocity, velocity, contact == drive_flank)
    end function closing_velocity
 
-   !> How many compressions a state has.
+   !> How many compressions a state has, with the deflections of damped teeth.
    elemental integer function compression_count(problem)
       type(problem_t), intent(in) :: problem
 
       compression_count = merge(contact_count(problem), 0, has_elastic_teeth(problem))
+      if (has_damped_teeth(problem)) compression_count = 2*compression_count
    end function compression_count
+
+   !> First and last of the deflections of damped teeth.
+   pure function deflection_places(problem) result(places)
+      type(problem_t), intent(in) :: problem
+      integer :: places(2)
+
+      places = of_velocity + contact_count(problem) + [1, contact_count(problem)]
+   end function deflection_places
 
    !> How many numbers of a state tell how gear and teeth stand and move: film, velocity, and what contacts are compressed by. They
    !> are its first ones; states of films stand behind them.
@@ -187,6 +209,8 @@ contains
       numbers(of_velocity) = state_number_t('velocity', 'm/s')
       do flank = 1, contact_count(problem)
          if (has_elastic_teeth(problem)) numbers(of_velocity + flank) = state_number_t(flanks(flank)//'compression', 'm')
+         if (has_damped_teeth(problem)) numbers(of_velocity + contact_count(problem) + flank) = &
+            state_number_t(flanks(flank)//'deflection', 'm')
          places = inner_places(problem, flank)
          do i = places(1), places(2)
             numbers(i) = inner_number(problem%contact, i - places(1) + 1)
@@ -388,6 +412,9 @@ contains
          if (has_elastic_teeth(problem)) share = 1.0_dp/(own_share - compliance*load%by_film)
          stiffness = stiffness - load%by_film*share
          damping = damping - load%by_velocity*share*share*own_share
+         ! What is left of the gear's way is that of the tooth.
+         if (has_damped_teeth(problem)) damping = damping + problem%contact%retardation*problem%contact%damped_share* &
+                                                  problem%contact%compliance*(load%by_film*share)**2
       end do
    end subroutine linearise
 

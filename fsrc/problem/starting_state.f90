@@ -4,8 +4,8 @@ module starting_state
    use film_state, only: load_t
    use flank_contact, only: inner_at_rest, load_at_rest
    use kinds, only: dp
-   use problem, only: compression_count, contact_count, has_elastic_teeth, has_inner_numbers, has_two_flanks, inner_places, &
-      of_drive_compression, of_film, of_velocity, problem_t, state_size
+   use problem, only: compression_count, contact_count, deflection_places, has_damped_teeth, has_elastic_teeth, has_inner_numbers, &
+      has_two_flanks, inner_places, of_drive_compression, of_film, of_velocity, problem_t, state_size
    implicit none(type, external)
    private
 
@@ -29,6 +29,9 @@ contains
       if (has_elastic_teeth(problem)) then
          call start_springs(problem, compressions)
          state(of_drive_compression:of_velocity + contact_count(problem)) = compressions(:contact_count(problem))
+         places = deflection_places(problem)
+         if (has_damped_teeth(problem)) &
+            state(places(1):places(2)) = problem%contact%damped_share*compressions(:contact_count(problem))
          gaps(2) = gaps(2) + sum(compressions)
       end if
       do flank = 1, contact_count(problem)
@@ -37,7 +40,8 @@ contains
       end do
    end function initial_state
 
-   !> What the contacts keep of a state while keys of its problem change: loads of the springs [N], states of the films.
+   !> What the contacts keep of a state while keys of its problem change: loads of the springs, those that deflect
+   !> damped teeth as they stand [N], states of the films.
    pure function kept_by_contacts(problem, state) result(kept)
       type(problem_t), intent(in) :: problem
       !> Its numbers
@@ -48,6 +52,8 @@ contains
          kept = [state(of_drive_compression:of_velocity + springs)/problem%contact%compliance, &
                  state(of_drive_compression + springs:)]
       end associate
+      ! Of teeth that are not damped loads and deflections are the same.
+      if (has_elastic_teeth(problem) .and. .not. has_damped_teeth(problem)) kept = [kept(:contact_count(problem)), kept]
    end function kept_by_contacts
 
    !> Put into a state what contacts have kept; springs that were none before are not compressed.
@@ -57,12 +63,16 @@ contains
       real(dp), intent(in) :: kept(:)
       !> Its numbers
       real(dp), intent(inout) :: state(:)
+      real(dp), allocatable :: these(:)
       integer :: n, springs
 
-      n = min(size(kept), size(state) - of_velocity)
+      these = kept
+      if (has_elastic_teeth(problem) .and. .not. has_damped_teeth(problem)) &
+         these = kept(min(size(kept), contact_count(problem)) + 1:)
+      n = min(size(these), size(state) - of_velocity)
       springs = compression_count(problem)
       state(of_drive_compression:of_velocity + springs) = 0.0_dp
-      state(of_drive_compression:of_velocity + n) = kept(:n)
+      state(of_drive_compression:of_velocity + n) = these(:n)
       n = of_velocity + min(n, springs)
       state(of_drive_compression:n) = problem%contact%compliance*state(of_drive_compression:n)
    end subroutine keep_by_contacts

@@ -7,7 +7,7 @@ module flank_elasticity
    private
 
    public :: equivalent_radius, plane_strain_modulus, contact_radius, elastic_scale, roelands_logarithm, flank_compliance, &
-             flattening_compliance, deflection_by_load
+             flattening_compliance, deflection_by_load, tooth_compliance
 
 contains
 
@@ -94,6 +94,19 @@ contains
       if (.not. scene%contact%flattening_included .or. (stiff .and. scene%film%law == law_elastohydrodynamic)) &
          flank_compliance = flank_compliance + flattening_compliance(scene)
    end function flank_compliance
+
+   !> Compliance of a tooth alone, whose deflection is damped: that of the stiffness, without the flattening of elastohydrodynamic
+   !> flanks that is in there. 0: rigid [m/N].
+   pure real(dp) function tooth_compliance(scene)
+      !> Checked, derived scene
+      type(scene_t), intent(in) :: scene
+
+      tooth_compliance = 0.0_dp
+      if (.not. scene%contact%stiffness > 0.0_dp) return
+      tooth_compliance = 1.0_dp/scene%contact%stiffness
+      if (scene%contact%flattening_included .and. scene%film%law == law_elastohydrodynamic) &
+         tooth_compliance = tooth_compliance - flattening_compliance(scene)
+   end function tooth_compliance
 
    !> By how much a tooth deflects under a load; of teeth that are taken for rigid one of some stiffness [m/N].
    elemental real(dp) function deflection_by_load(contact, tooth_stiffness)

@@ -41,6 +41,7 @@ module key_table
    real(dp), parameter :: a_squeeze_ratio(2) = [-1.0e20_dp, 1.0e20_dp]
    real(dp), parameter :: a_speed_group(2) = [1.0e-30_dp, 1.0e10_dp]
    type(range_t), parameter :: fraction = range_t(0.0_dp, .true., 1.0_dp, .false.)
+   type(range_t), parameter :: below_critical = range_t(0.0_dp, .false., 1.0_dp, .true.)
 
    ! Keys of the one of three ways in which the drag of a loose gear is known
    character(*), parameter :: of_computed_drag = 'gear.bearing_mean_diameter'
@@ -77,6 +78,9 @@ module key_table
       key_t('contact', 'stiffness', real_kind, 'N/m', '', positive, '', of_motions, &
             'Stiffness of a flank with its tooth, in series with the film of each flank; absent: rigid teeth.', &
             sensible=[1.0e5_dp, 1.0e12_dp], computable=a_stiffness, given_by='gear'), &
+      key_t('contact', 'damping_ratio', real_kind, '-', '0.0', below_critical, '', of_motions, &
+            'Damping ratio zeta of the mass on that stiffness k: a tooth deflected by D carries k D + c D'', c = '// &
+            '2 zeta sqrt(k mass); 0: it gives all energy back.', sensible=[0.0_dp, 0.3_dp], given_by='gear'), &
       key_t('contact', 'flattening_included', logical_kind, '', '.true.', any_number, '', of_motions, &
             'Whether that stiffness, or gear.tooth_stiffness, contains the flattening of the flanks, as that of ISO 6336-1 '// &
             'does; else a plane contact, elastic to the depth R, is compressed beside it.'), &
@@ -240,6 +244,9 @@ module key_table
             'Stiffness of the teeth for each metre of face width, c'' of ISO 6336-1 (1.4e10 for steel); a flank has it times '// &
             'face_width and contact_lines; 0: rigid.', sensible=[1.0e7_dp, 1.0e12_dp], computable=[0.0_dp, 1.0e20_dp], &
             with_gear='14.0e9'), &
+      key_t('gear', 'tooth_damping_ratio', real_kind, '-', '0.0', below_critical, '', of_motions, &
+            'Damping ratio of the loose gear on the stiffness of its teeth, as contact.damping_ratio; steel alone has 0.01 to '// &
+            '0.03.', sensible=[0.0_dp, 0.3_dp]), &
       key_t('shaft', 'speed_rpm', real_kind, '1/min', 'required', positive, '', of_motions, &
             'Mean speed of the shaft.', example='800.0', sensible=[1.0_dp, 1.0e5_dp], computable=[1.0e-6_dp, 1.0e9_dp]), &
       key_t('shaft', 'table', text_kind, '', '', any_number, '', of_motions, &

@@ -29,7 +29,8 @@ module quantities
          quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_load_minimum, quantity_load_maximum, &
          quantity_acceleration_rms, quantity_gear_acceleration_rms, quantity_gear_acceleration_maximum, quantity_crest_factor, &
          quantity_acceleration_kurtosis, quantity_film_force_rms, quantity_dissipated_energy, quantity_dissipated_power, &
-         quantity_coast_film_minimum, quantity_coast_film_maximum, quantity_coast_load_maximum, quantity_reversal, &
+         quantity_film_dissipated_power, quantity_tooth_dissipated_power, quantity_coast_film_minimum, &
+         quantity_coast_film_maximum, quantity_coast_load_maximum, quantity_reversal, &
          quantity_unloaded_share, quantity_separation, quantity_impacts_per_period_drive, quantity_impacts_per_period_coast, &
          quantity_impact_load_maximum_drive, quantity_impact_load_maximum_coast, quantity_impact_velocity_maximum_drive, &
          quantity_impact_velocity_maximum_coast, quantity_impact_impulse_maximum_drive, quantity_impact_impulse_maximum_coast, &
@@ -171,10 +172,14 @@ module quantities
       quantity_t(quantity_film_force_rms, 'film_force_rms', 'N', a_number, part_window, needs_nothing, 'summary sweep campaign', &
          'Root of the mean square by which the film force leaves its mean: what the bearings feel.', digits=4), &
       quantity_t(quantity_dissipated_energy, 'dissipated_energy', 'J', a_number, part_window, needs_nothing, 'summary campaign', &
-         'Work that the film takes a period of the force, - integral of (W - Q - m g) dh over the window by its periods; '// &
+         'Work that film and teeth take a period of the force, - integral of (W - Q - m g) dh over the window by its periods; '// &
          'less than 0 at times if it does not repeat.'), &
       quantity_t(quantity_dissipated_power, 'dissipated_power', 'W', a_number, part_window, needs_nothing, &
          'summary sweep campaign log', 'dissipated_energy times the frequency of the force.', digits=4), &
+      quantity_t(quantity_film_dissipated_power, 'film_dissipated_power', 'W', a_number, part_window, needs_nothing, &
+         'summary campaign', 'What the films take of dissipated_power, where teeth are damped: the rest of it.'), &
+      quantity_t(quantity_tooth_dissipated_power, 'tooth_dissipated_power', 'W', a_number, part_window, needs_nothing, &
+         'summary campaign', 'What damped teeth take of dissipated_power, the mean of c D''^2 of both flanks.'), &
       quantity_t(quantity_coast_film_minimum, 'coast_film_minimum', 'm', a_number, part_window, needs_coast_film_range, &
          'summary flanks campaign', 'Minimum film thickness of the coast flank over the window, where there is a backlash.'), &
       quantity_t(quantity_coast_film_maximum, 'coast_film_maximum', 'm', a_number, part_window, needs_coast_film_range, &

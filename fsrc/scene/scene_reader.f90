@@ -384,6 +384,8 @@ contains
          if (keys(i)%name == 'flattening_included') &
             is_told = is_told .and. (input%is_given('contact.stiffness') .or. input%word('film.law') == 'elastohydrodynamic' &
                                      .or. input%number('gear.tooth_stiffness') > 0.0_dp)
+         if (keys(i)%name == 'damping_ratio' .or. keys(i)%name == 'tooth_damping_ratio') &
+            is_told = is_told .and. input%entries(i)%number > 0.0_dp
          ! In a film task the absent model means more than its default.
          if (keys(i)%name == 'model') is_told = is_told .and. (input%entries(i)%given .or. input%word('scene.task') /= 'film')
       end function is_told

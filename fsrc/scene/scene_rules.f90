@@ -2,8 +2,8 @@
 module scene_rules
    use flank_elasticity, only: flattening_compliance, roelands_logarithm
    use kinds, only: dp
-   use scene_types, only: drag_given, law_elastohydrodynamic, least_entrainment_speed, least_static_load, scene_t, &
-                          viscosity_roelands
+   use scene_types, only: drag_given, law_elastohydrodynamic, least_entrainment_speed, least_static_load, model_resolved, &
+                          scene_t, viscosity_roelands
    implicit none(type, external)
    private
 
@@ -25,8 +25,8 @@ contains
       !> Each of its numbers is one that can be computed with
       type(scene_t), intent(in) :: scene
       type(rule_t), allocatable :: broken(:)
-      type(rule_t) :: rules(5)
-      logical :: holds(5)
+      type(rule_t) :: rules(7)
+      logical :: holds(7)
 
       associate (contact => scene%contact, excitation => scene%excitation, solver => scene%solver, spectrum => scene%spectrum)
          rules(1) = rule_t('load.steady_force load.mass load.gravity', &
@@ -46,12 +46,21 @@ contains
             ') must be solved'
          rules(5) = rule_t('oil.viscosity_100_cst oil.viscosity_40_cst', 'at 100 degC an oil is thinner than at 40 degC')
          holds(5) = .not. scene%oil%given .or. scene%oil%viscosity_100_cst < scene%oil%viscosity_40_cst
+         rules(6) = rule_t('contact.damping_ratio', 'rigid teeth have no damping: give contact.stiffness too, or leave this out')
+         holds(6) = .not. contact%damping_ratio > 0.0_dp .or. contact%stiffness > 0.0_dp
+         rules(7) = rule_t('contact.damping_ratio', "films in nodes stand on teeth that are not damped; take model = 'closure'")
+         holds(7) = .not. max(contact%damping_ratio, scene%gear%tooth_damping_ratio) > 0.0_dp .or. &
+                    .not. (scene%film%automatic .or. scene%film%model == model_resolved)
          if (scene%gear%given) then
             rules(1) = rule_t('gear.drag_torque', 'without a backlash the drag torque must be positive')
             holds(1) = scene%gear%backlash > 0.0_dp .or. scene%gear%drag_torque > 0.0_dp &
                        .or. scene%gear%drag_known_by() /= drag_given
             rules(2)%keys = 'film.initial_film gear.backlash'
             holds(2) = .not. (scene%gear%backlash > 0.0_dp .and. scene%film%initial_film >= scene%gear%backlash)
+            rules(6) = rule_t('gear.tooth_damping_ratio gear.tooth_stiffness', 'rigid teeth have no damping: give '// &
+                              'gear.tooth_stiffness too, or leave this out')
+            holds(6) = .not. scene%gear%tooth_damping_ratio > 0.0_dp .or. scene%gear%tooth_stiffness > 0.0_dp
+            rules(7)%keys = 'gear.tooth_damping_ratio'
          end if
       end associate
       broken = pack(rules,.not. holds)

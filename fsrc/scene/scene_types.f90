@@ -65,6 +65,8 @@ module scene_types
       real(dp) :: backlash = 0.0_dp
       !> Stiffness of a flank and its tooth, in series with the film [N/m]; 0: rigid
       real(dp) :: stiffness = 0.0_dp
+      !> Damping ratio of the mass that moves on that stiffness [-]; 0: the teeth lose no energy
+      real(dp) :: damping_ratio = 0.0_dp
       !> Whether the flattening of the flanks is in there, or adds to what it gives
       logical :: flattening_included = .true.
       !> Width of all teeth in contact [m]; 0: the contact length
@@ -216,9 +218,11 @@ module scene_types
       real(dp) :: immersion_depth = 0.0_dp
       !> Speed of the shaft that carries the loose gear over that of the shaft that drives it
       real(dp) :: own_shaft_ratio = 0.0_dp
-      !> Backlash along the normal of the flanks [m], 0: one flank; stiffness of the teeth for each width [N/m2], 0: rigid
+      !> Backlash along the normal of the flanks [m], 0: one flank; stiffness of the teeth for each width [N/m2], 0: rigid; damping
+      !> ratio of the loose gear on that stiffness [-]
       real(dp) :: backlash = 0.0_dp
       real(dp) :: tooth_stiffness = 0.0_dp
+      real(dp) :: tooth_damping_ratio = 0.0_dp
    contains
       procedure :: drag_known_by
    end type gear_t
@@ -511,6 +515,8 @@ contains
             contact%backlash = value
          case ('contact.stiffness')
             contact%stiffness = value
+         case ('contact.damping_ratio')
+            contact%damping_ratio = value
          case ('lubricant.viscosity')
             lubricant%viscosity = value
          case ('lubricant.pressure_viscosity')
@@ -645,6 +651,8 @@ contains
          gear%backlash = value
       case ('tooth_stiffness')
          gear%tooth_stiffness = value
+      case ('tooth_damping_ratio')
+         gear%tooth_damping_ratio = value
       case default
          if (present(known)) known = .false.
       end select

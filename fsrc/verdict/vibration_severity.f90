@@ -20,8 +20,9 @@ module vibration_severity
       real(dp) :: acceleration_kurtosis = 0.0_dp
       !> Root of the mean square by which the film force leaves its mean [N]
       real(dp) :: film_force_rms = 0.0_dp
-      !> What the film takes from the motion, a period of the force [J]
+      !> What films and teeth take from the motion, a period of the force, and the part of damped teeth [J]
       real(dp) :: dissipated_energy = 0.0_dp
+      real(dp) :: tooth_energy = 0.0_dp
    end type vibration_severity_t
 
    public :: severity_of_record, severity_of_sums, severity_of_samples, severity_numbers
@@ -36,6 +37,7 @@ contains
       real(dp), intent(in) :: frequency
 
       severity = severity_of_sums(sums_of_record(record), record%periods, frequency)
+      severity%tooth_energy = record%tooth_loss/real(record%periods, dp)
    end function severity_of_record
 
    !> Vibration severity of sums over some periods.
@@ -79,7 +81,7 @@ contains
       end associate
    end function severity_of_samples
 
-   !> All numbers, in the order of the type.
+   !> The numbers whose errors are reported, in the order of the type.
    pure function severity_numbers(severity) result(numbers)
       type(vibration_severity_t), intent(in) :: severity
       real(dp) :: numbers(4)

@@ -30,31 +30,52 @@ contains
       call against_neighbours(checks, 'one flank, oil that thickens', on_one_flank(law_piezo_viscous))
       call against_neighbours(checks, 'two flanks', on_two_flanks())
       call against_neighbours(checks, 'flanks that bend', problem_of(scene_g(viscosity_barus)))
+      call against_neighbours(checks, 'damped, one flank', on_one_flank(law_iso_viscous, 0.05_dp))
+      call against_neighbours(checks, 'damped, one flank, oil that thickens', on_one_flank(law_piezo_viscous, 0.05_dp))
+      call against_neighbours(checks, 'damped, two flanks', on_two_flanks(0.05_dp))
+      call against_neighbours(checks, 'damped, flanks that bend', damped_and_bent())
       call test_repeating(checks)
       call test_returning(checks)
       call test_who(checks)
    end subroutine run_elastic_tangents_tests
 
    !> The canonical scene on elastic teeth.
-   type(problem_t) function on_one_flank(law)
+   type(problem_t) function on_one_flank(law, damping_ratio)
       !> Code of scene_types
       integer, intent(in) :: law
+      !> Of the teeth; absent: 0 [-]
+      real(dp), intent(in), optional :: damping_ratio
       type(scene_t) :: scene
 
       scene = canonical_scene(law, 256)
       scene%film%model = model_published
       scene%contact%stiffness = 3.0e8_dp
+      if (present(damping_ratio)) scene%contact%damping_ratio = damping_ratio
       on_one_flank = problem_of(scene)
    end function on_one_flank
 
    !> A loose gear on springs, its oil of constant viscosity.
-   type(problem_t) function on_two_flanks()
+   type(problem_t) function on_two_flanks(damping_ratio)
+      !> Of the teeth; absent: 0 [-]
+      real(dp), intent(in), optional :: damping_ratio
       type(scene_t) :: scene
 
       scene = loose_gear()
       scene%contact%stiffness = 5.0e7_dp
+      if (present(damping_ratio)) scene%contact%damping_ratio = damping_ratio
       on_two_flanks = problem_of(scene)
    end function on_two_flanks
+
+   !> Damped teeth whose flanks bend and flatten beside their damping.
+   type(problem_t) function damped_and_bent()
+      type(scene_t) :: scene
+
+      scene = scene_g(viscosity_barus)
+      scene%contact%stiffness = 3.0e8_dp
+      scene%contact%damping_ratio = 0.05_dp
+      scene%contact%flattening_included = .false.
+      damped_and_bent = problem_of(scene)
+   end function damped_and_bent
 
    !> Displacements of every number of a state through a period, against central differences of motions that start beside it. Steps
    !> of 1e-4 of what a number counts as leave an error of some 1e-8 of the largest slope, which impacts make a hundred times as

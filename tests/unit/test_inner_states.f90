@@ -16,8 +16,8 @@ module test_inner_states
    use many_motions, only: solve_motions
    use output_place, only: state_path
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
-   use problem, only: contact_count, film_at_rest, has_elastic_teeth, inner_places, of_drive_compression, of_film, of_velocity, &
-      problem_of, problem_t, state_size, static_load
+   use problem, only: contact_count, film_at_rest, has_damped_teeth, has_elastic_teeth, inner_places, &
+      of_drive_compression, of_film, of_velocity, problem_of, problem_t, state_size, static_load
    use quantities, only: quantity_acceleration_maximum, quantity_verified, quantity_film_minimum, quantity_rattle_class, &
       quantity_table
    use relaxing_film, only: chain_length, relaxing_film_t
@@ -53,16 +53,19 @@ contains
    end subroutine run_inner_states_tests
 
    !> A scene of such films.
-   function relaxing_scene(stiffness, backlash) result(scene)
+   function relaxing_scene(stiffness, backlash, damping_ratio) result(scene)
       !> Of the teeth [N/m], 0: rigid; and backlash [m], 0: one flank
       real(dp), intent(in) :: stiffness
       real(dp), intent(in) :: backlash
+      !> Of the teeth; absent: 0 [-]
+      real(dp), intent(in), optional :: damping_ratio
       type(scene_t) :: scene
 
       scene = canonical_scene(law_relaxing, 64)
       scene%excitation%force_amplitude = 100.0_dp
       scene%contact%stiffness = stiffness
       scene%contact%backlash = backlash
+      if (present(damping_ratio)) scene%contact%damping_ratio = damping_ratio
       scene%solver%method = method_taylor
       scene%solver%accuracy = 1.0e-9_dp
    end function relaxing_scene
@@ -72,7 +75,8 @@ contains
       type(relaxing_film_t), intent(in) :: chain
       type(check_list_t), intent(inout) :: checks
       integer, parameter :: samples = 32, periods = 3
-      real(dp), parameter :: stiffnesses(2) = [0.0_dp, 3.0e7_dp], backlashes(2) = [0.0_dp, 2.2e-4_dp]
+      real(dp), parameter :: stiffnesses(3) = [0.0_dp, 3.0e7_dp, 3.0e7_dp], damping_ratios(3) = [0.0_dp, 0.0_dp, 0.1_dp]
+      real(dp), parameter :: backlashes(2) = [0.0_dp, 2.2e-4_dp]
       real(dp), parameter :: accuracy = 1.0e-9_dp
       type(problem_t) :: problem
       type(motion_state_t) :: start
@@ -83,7 +87,7 @@ contains
 
       do i = 1, size(stiffnesses)
          do j = 1, size(backlashes)
-            problem = problem_of(relaxing_scene(stiffnesses(i), backlashes(j)))
+            problem = problem_of(relaxing_scene(stiffnesses(i), backlashes(j), damping_ratios(i)))
             start = start_of(problem)
             call checks%check(size(start%numbers) == 2 + j*(i - 1) + j*chain_length, 'numbers of a state')
             load = chain%stiffness*(chain%reach - start%numbers(of_film))
@@ -91,6 +95,9 @@ contains
             start%numbers(of_film) = 1.02_dp*start%numbers(of_film)
             start%numbers(of_velocity) = 0.003_dp
             start%numbers(state_size(problem)) = 0.98_dp*start%numbers(state_size(problem))
+            exact = augmented(start%numbers)
+            call put_loads(chain, problem, exact)
+            start%numbers = exact(:state_size(problem))
             allocate (states(samples*periods, state_size(problem), 1), source=0.0_dp)
             call solve_motions([problem], [start], request_t(accuracy=accuracy, periods=periods, samples_per_period=samples, &
                                                              sampled_periods=periods), states, endings)
@@ -100,6 +107,7 @@ contains
             error = 0.0_dp
             do k = 1, samples*periods
                exact = matmul(map, exact)
+               call put_loads(chain, problem, exact)
                error = max(error, maxval(abs(states(k, :, 1) - exact(:state_size(problem)))*counted(problem))/exact(of_film))
             end do
             call checks%check_close(error, 0.0_dp, 20.0_dp*accuracy, 'exact: states of the samples')
@@ -160,10 +168,17 @@ contains
             film = x(of_film)
             if (flank == 2) film = problem%backlash*x(n - 2) - x(of_film)
             if (has_elastic_teeth(problem)) then
-               if (flank == 2) film = film + x(of_drive_compression) + x(of_spring)
+               if (has_damped_teeth(problem)) of_spring = of_spring + contact_count(problem)
+               if (flank == 2) film = film + x(of_spring - 1) + x(of_spring)
                load = x(of_spring)/problem%contact%compliance
                velocity = (chain%stiffness*(chain%reach*x(n - 2) - film) - chain%chain_stiffness*(film - x(places(2))) - load) &
                           /chain%damping
+               if (has_damped_teeth(problem)) then
+                  associate (c => problem%contact%retardation/problem%contact%compliance)
+                     velocity = (chain%damping*velocity + c*turn*x(of_velocity))/(chain%damping + c)
+                     load = load + c*(velocity - turn*x(of_velocity))
+                  end associate
+               end if
                slope(of_spring) = velocity - turn*x(of_velocity)
                if (flank == 1) slope(of_film) = velocity
             else
@@ -181,6 +196,21 @@ contains
       end function slope_of
 
    end function motion_matrix
+
+   !> Put the loads of damped teeth into an augmented state, kappa W = D + tau D'.
+   subroutine put_loads(chain, problem, x)
+      type(relaxing_film_t), intent(in) :: chain
+      type(problem_t), intent(in) :: problem
+      real(dp), intent(inout) :: x(:)
+      real(dp) :: slope(size(x))
+      integer :: last
+
+      if (.not. has_damped_teeth(problem)) return
+      slope = matmul(motion_matrix(chain, problem), x)
+      last = of_velocity + contact_count(problem)
+      x(of_drive_compression:last) = x(last + 1:2*last - of_velocity) + &
+                                     problem%contact%retardation*slope(last + 1:2*last - of_velocity)
+   end subroutine put_loads
 
    !> Exponential of a matrix: Taylor's series of a small share of it, squared.
    function exponential(matrix) result(power)

@@ -40,6 +40,7 @@ contains
 
       scene = loose_gear()
       scene%contact%stiffness = 2.8e8_dp
+      scene%contact%damping_ratio = 0.02_dp
       judged%resolved = resolve(scene)
       judged%resolved%steady_film = 1.5_dp
       judged%resolved%natural_frequency = 2.5_dp
@@ -69,11 +70,12 @@ contains
       judged%severity%acceleration_kurtosis = 32.0_dp
       judged%severity%film_force_rms = 33.0_dp
       judged%severity%dissipated_energy = 34.0_dp
+      judged%severity%tooth_energy = 10.0_dp
       do i = 1, seen_quantities
          judged%extremes%lowest(i)%value = 100.0_dp + real(i, dp)
          judged%extremes%highest(i)%value = 200.0_dp + real(i, dp)
-         judged%extremes%lowest(i)%state = [2.0e-6_dp, 0.0_dp, 3.0e-6_dp, 0.0_dp]
-         judged%extremes%highest(i)%state = [2.0e-6_dp, 0.0_dp, 3.0e-6_dp, 0.0_dp]
+         judged%extremes%lowest(i)%state = [2.0e-6_dp, 0.0_dp, 3.0e-6_dp, 0.0_dp, 3.0e-6_dp, 0.0_dp]
+         judged%extremes%highest(i)%state = [2.0e-6_dp, 0.0_dp, 3.0e-6_dp, 0.0_dp, 3.0e-6_dp, 0.0_dp]
       end do
       judged%regime%alpha_p_maximum = 41.0_dp
       judged%regime%pressure_maximum = 42.0_dp
@@ -157,6 +159,8 @@ contains
       call expect('film_force_rms', 33.0_dp)
       call expect('dissipated_energy', 34.0_dp)
       call expect('dissipated_power', 34.0_dp*judged%resolved%problem%frequency)
+      call expect('film_dissipated_power', 24.0_dp*judged%resolved%problem%frequency)
+      call expect('tooth_dissipated_power', 10.0_dp*judged%resolved%problem%frequency)
       call expect('crest_factor', (200.0_dp + real(seen_acceleration, dp))/31.0_dp)
       call extremes('film', seen_films(1))
       call extremes('velocity', seen_velocity)

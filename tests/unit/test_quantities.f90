@@ -8,7 +8,7 @@ module test_quantities
    use judged_scene, only: judged_scene_t, quantity_list, quantity_value
    use key_table, only: find_key
    use kinds, only: dp, int64
-   use problem, only: has_elastic_teeth
+   use problem, only: has_damped_teeth, has_elastic_teeth
    use quantities, only: a_list, a_number, part_errors, quantity_batch_periods, quantity_followed_periods, &
       least_verdict_with_impacts, needs_impacts, quantity_motion_end, &
       quantity_impacts_per_period_drive, quantity_gear_acceleration_maximum, quantity_gear_acceleration_rms, &
@@ -17,7 +17,8 @@ module test_quantities
       quantity_drag_synchroniser, quantity_drag_torque, quantity_inertia_ratio, quantity_central_film, quantity_closure_range, &
       quantity_film_at_pressure_maximum, quantity_film_model, quantity_pressure_error, quantity_pressure_resolved, &
       quantity_impacts_drive, quantity_verified, quantity_gear_position_maximum, quantity_gear_position_minimum, &
-      quantity_periods_solved, quantity_status, quantity_table, quantity_word
+      quantity_film_dissipated_power, quantity_tooth_dissipated_power, quantity_periods_solved, quantity_status, &
+      quantity_table, quantity_word
    use run_sweep, only: carried_state_t, solve_value
    use scene_solution, only: solve_in_memory
    use sampling, only: plan_table, sample_plan_t
@@ -37,13 +38,15 @@ contains
 
       call checks%start('quantities')
       call test_words(checks)
-      call test_scene(0.0_dp, checks)
-      call test_scene(2.0e8_dp, checks)
+      call test_scene(0.0_dp, 0.0_dp, checks)
+      call test_scene(2.0e8_dp, 0.0_dp, checks)
+      call test_scene(2.0e8_dp, 0.05_dp, checks)
    end subroutine run_quantities_tests
 
    !> All quantities of a scene.
-   subroutine test_scene(stiffness, checks)
+   subroutine test_scene(stiffness, damping_ratio, checks)
       real(dp), intent(in) :: stiffness            !> Of its teeth [N/m], 0: rigid
+      real(dp), intent(in) :: damping_ratio        !> and their damping [-]
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       type(judged_scene_t) :: single, swept
       type(scene_t) :: scene
@@ -51,6 +54,7 @@ contains
 
       scene = steady_scene()
       scene%contact%stiffness = stiffness
+      scene%contact%damping_ratio = damping_ratio
       call solve_single(scene, single)
       call test_every_value(single, checks)
       call solve_swept(scene, swept)
@@ -90,6 +94,9 @@ contains
          else if (any(i == [quantity_gear_position_minimum, quantity_gear_position_maximum]) .and. &
                   .not. has_elastic_teeth(single%resolved%problem)) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of rigid teeth')
+         else if (any(i == [quantity_film_dissipated_power, quantity_tooth_dissipated_power]) .and. &
+                  .not. has_damped_teeth(single%resolved%problem)) then
+            call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of teeth without damping')
          else if (any(i == [quantity_drag_torque, quantity_drag_bearing, quantity_drag_synchroniser, quantity_drag_churning, &
                             quantity_inertia_ratio, quantity_gear_acceleration_rms, quantity_gear_acceleration_maximum])) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of no gear')

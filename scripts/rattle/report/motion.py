@@ -132,7 +132,7 @@ NUMBERS = {
     "drag_torque": "Drag torque on the loose gear",
     "film_minimum": "Thinnest film",
     "film_maximum": "Thickest film",
-    "dissipated_power": "Power that the films take",
+    "dissipated_power": "Power that films and teeth take",
     "alpha_p_maximum": "Largest pressure times the pressure-viscosity coefficient",
     "harmonic_count": "Harmonics of the acceleration that stand out",
     "natural_frequency": "Natural frequency of small motions",
