@@ -17,13 +17,13 @@ subroutine wrap_amplitude_spectrum(n, samples, m, amplitudes)
 end subroutine wrap_amplitude_spectrum
 
 ! Class of n samples of `periods` whole periods; m = (n/periods - 1)/2 harmonics. ratios: distortion,
-! irregular fraction, reversals a period; orders and amplitudes: those of the force; orbit: periods after which the motion is known
+! irregular fraction, reversals a period, spectral reach; orders and amplitudes: those of the force; orbit: periods after which the motion is known
 ! to repeat, or 0; counts: class, harmonics, 1 if there is motion, 1 if the samples suffice.
 subroutine wrap_classify(n, acceleration, periods, limits, idle_harmonics, orbit, k, orders, amplitudes, m, harmonics, &
    ratios, counts)
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use rattle_class, only: classify, note_orbit, rattle_verdict_t
-   use scene_types, only: forced_orders, spectrum_choice_t
+   use scene_types, only: dominant_order, forced_orders, spectrum_choice_t
    implicit none
    integer(c_int), intent(in) :: n
    real(c_double), intent(in) :: acceleration(n)
@@ -36,7 +36,7 @@ subroutine wrap_classify(n, acceleration, periods, limits, idle_harmonics, orbit
    real(c_double), intent(in) :: amplitudes(k)
    integer(c_int), intent(in) :: m
    real(c_double), intent(out) :: harmonics(m)
-   real(c_double), intent(out) :: ratios(3)
+   real(c_double), intent(out) :: ratios(4)
    integer(c_int), intent(out) :: counts(5)
    type(rattle_verdict_t) :: verdict
    type(spectrum_choice_t) :: choice
@@ -47,10 +47,12 @@ subroutine wrap_classify(n, acceleration, periods, limits, idle_harmonics, orbit
    choice%irregular_limit = limits(3)
    choice%idle_harmonics = idle_harmonics
    choice%forced = forced_orders(orders, amplitudes)
+   choice%dominant_order = dominant_order(orders, amplitudes)
    call classify(acceleration, choice, limits(4), verdict)
    call note_orbit(verdict, orbit)
    harmonics = verdict%spectrum%harmonics
-   ratios = [verdict%spectrum%harmonic_distortion, verdict%spectrum%irregular_fraction, verdict%reversals_per_period]
+   ratios = [verdict%spectrum%harmonic_distortion, verdict%spectrum%irregular_fraction, verdict%reversals_per_period, &
+             verdict%spectrum%spectral_reach]
    counts = [verdict%class, verdict%spectrum%harmonic_count, merge(1, 0, verdict%spectrum%moving), &
              merge(1, 0, verdict%spectrum%sampling_sufficient), verdict%spectrum%largest_forced]
 end subroutine wrap_classify

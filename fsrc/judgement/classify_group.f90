@@ -304,29 +304,16 @@ contains
       end do
    end function integral_windows
 
-   !> An empty record that asks for Fourier integrals. Where all orders of the force are multiples of one, so may all harmonics be,
-   !> and as many of them are asked for as of a force whose orders have no common divisor.
+   !> An empty record that asks for Fourier integrals, up to twice the multiple of the dominant order that makes a motion idle.
    pure function integral_record(spectrum) result(record)
       !> Limits of the classes
       type(spectrum_choice_t), intent(in) :: spectrum
       type(window_record_t) :: record
 
       record%wants = .false.
-      record%multiples = max(usual_multiples, 2*spectrum%idle_harmonics*common_divisor(spectrum%forced), &
+      record%multiples = max(usual_multiples, 2*spectrum%idle_harmonics*spectrum%dominant_order, &
                              2*findloc(spectrum%forced, .true., dim=1, back=.true.))
    end function integral_record
-
-   !> Greatest order of which all orders of a force are multiples.
-   pure integer function common_divisor(forced)
-      logical, intent(in) :: forced(:)
-      integer :: order
-
-      common_divisor = 1
-      ! It is no larger than the lowest of them.
-      do order = 2, findloc(forced, .true., dim=1)
-         if (count(forced(order::order)) == count(forced)) common_divisor = order
-      end do
-   end function common_divisor
 
    !> Whether twice as many samples of a window may be enough.
    elemental logical function may_be_finer(record, periods, samples_per_period)

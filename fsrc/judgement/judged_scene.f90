@@ -202,12 +202,19 @@ contains
             if (is_elastic(problem%contact)) value = highest(seen_position)%value
          case (quantity_reversals_per_period)
             value = judged%rattle%reversals_per_period
+         case (quantity_reversals_per_second)
+            value = judged%rattle%reversals_per_period*problem%frequency
+         case (quantity_reversals_per_revolution)
+            if (judged%resolved%gear_speed > 0.0_dp) &
+               value = judged%rattle%reversals_per_period*problem%frequency/judged%resolved%gear_speed
          case (quantity_first_harmonic)
             if (spectrum%moving) value = spectrum%harmonics(1)
          case (quantity_harmonic_count)
             if (spectrum%moving) value = real(spectrum%harmonic_count, dp)
          case (quantity_harmonic_count_is_bound)
             if (spectrum%moving) value = flag(spectrum%count_is_bound)
+         case (quantity_spectral_reach)
+            if (spectrum%moving .and. spectrum%spectral_reach > 0.0_dp) value = spectrum%spectral_reach
          case (quantity_harmonic_distortion)
             if (spectrum%moving) value = spectrum%harmonic_distortion
          case (quantity_harmonic_distortion_is_bound)
@@ -391,6 +398,13 @@ contains
             if (allocated(judged%verification%harmonic_errors)) value = judged%verification%impacts_per_period_errors(contact)
          case (contact_impact_impulse_mean_error)
             if (allocated(judged%verification%harmonic_errors)) value = judged%verification%impulse_mean_errors(contact)
+         case (contact_impacts_per_second, contact_impacts_per_revolution)
+            associate (impacts => judged%impacts, frequency => judged%resolved%problem%frequency, &
+                       speed => judged%resolved%gear_speed)
+               if (part == contact_impacts_per_revolution .and. .not. speed > 0.0_dp) return
+               value = value_of_impacts(contact_impacts_per_period, impacts%contacts(contact), impacts%periods)*frequency
+               if (part == contact_impacts_per_revolution) value = value/speed
+            end associate
          case default
             value = value_of_impacts(part, judged%impacts%contacts(contact), judged%impacts%periods)
          end select

@@ -28,6 +28,8 @@ module prepared_scene
       type(drag_t) :: drag = drag_t()
       !> Arm by which a force along the normal of the flanks turns the loose gear of &gear [m]; 0: there is none
       real(dp) :: gear_arm = 0.0_dp
+      !> Revolutions of that gear [1/s]; 0: not known
+      real(dp) :: gear_speed = 0.0_dp
       !> Film that carries Q + m g [m]; 0 where no rigid film does: then nothing that rests on it is known
       real(dp) :: steady_film = 0.0_dp
       !> Of small motions about it, with the total derivatives of the scene's own film; 0: they do not oscillate, or it is not known
@@ -109,6 +111,8 @@ contains
       if (scene%gear%given) resolved%drag = scene%drag
       ! The mass of the contact is the inertia of the loose gear over the square of the arm.
       if (scene%gear%given) resolved%gear_arm = sqrt(scene%gear%loose_inertia/scene%excitation%mass)
+      if (scene%gear%given) resolved%gear_speed = scene%shaft%speed_rpm/60.0_dp*real(scene%gear%teeth_1, dp)/ &
+                                                  real(scene%gear%teeth_2, dp)
       resolved%deflection_by_load = deflection_by_load(scene%contact, steel_tooth)
       resolved%dry_impact = free_velocity(scene%excitation)*sqrt(scene%excitation%mass/resolved%deflection_by_load)
       static_load = scene%excitation%static_load()

@@ -63,16 +63,14 @@ contains
       real(dp), intent(in) :: kept(:)
       !> Its numbers
       real(dp), intent(inout) :: state(:)
-      real(dp), allocatable :: these(:)
-      integer :: n, springs
+      integer :: first, n, springs
 
-      these = kept
-      if (has_elastic_teeth(problem) .and. .not. has_damped_teeth(problem)) &
-         these = kept(min(size(kept), contact_count(problem)) + 1:)
-      n = min(size(these), size(state) - of_velocity)
+      first = 1
+      if (has_elastic_teeth(problem) .and. .not. has_damped_teeth(problem)) first = min(size(kept), contact_count(problem)) + 1
+      n = min(size(kept) - first + 1, size(state) - of_velocity)
       springs = compression_count(problem)
       state(of_drive_compression:of_velocity + springs) = 0.0_dp
-      state(of_drive_compression:of_velocity + n) = these(:n)
+      state(of_drive_compression:of_velocity + n) = kept(first:first + n - 1)
       n = of_velocity + min(n, springs)
       state(of_drive_compression:n) = problem%contact%compliance*state(of_drive_compression:n)
    end subroutine keep_by_contacts

@@ -2,7 +2,7 @@
 module scene_report
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use coexisting_motions, only: motions_sentence, own_start_words
-   use verification, only: verification_sentence, verification_word
+   use verification, only: spoken_verification, verification_sentence
    use film_law, only: with_exact_film
    use film_state, only: load_t
    use flank_contact, only: contact_words, load_at_rest
@@ -18,7 +18,7 @@ module scene_report
       quantity_iterations_per_step, quantity_model_limit, quantity_orbit_stability, quantity_rattle_class, quantity_t, &
       quantity_table, quantity_verdict, quantity_verdict_verified, quantity_word
    use film_pressure, only: exact_pressure
-   use rattle_class, only: class_irregular, class_irregular_so_far
+   use rattle_class, only: class_irregular, class_irregular_so_far, sounds
    use regime, only: contact_deflection, deflection_limit, film_elastohydrodynamic, film_iso_viscous, film_regime, &
       hertzian_pressure, rigid_limit, steel_tooth
    use regime_check, only: check_regime, closure_range_sentence, fitting_law, model_limit, model_limit_sentence, &
@@ -414,14 +414,14 @@ contains
          character(:), allocatable :: words
 
          words = ''
-         if (judged%verification%exists) words = ' ('//verification_word(judged%verification)//')'
+         if (judged%verification%exists) words = ' ('//spoken_verification(judged%verification%verified)//')'
          if (.not. allocated(judged%coexisting%motions)) return
          if (size(judged%coexisting%motions) > 1) words = words//', '//own_start_words(judged%coexisting)
       end function verified_in_brackets
 
    end subroutine report_window
 
-   !> What the tooth does in its gap, how sure that is, and how hard it is for the bearings.
+   !> What the tooth does in its gap, what that sounds like, how sure both are, and how hard it is for the bearings.
    pure function verdict_sentence(judged) result(sentence)
       !> A scene that could be judged
       type(judged_scene_t), intent(in) :: judged
@@ -430,8 +430,10 @@ contains
 
       sentence = quantity_word(quantity_verdict, nint(quantity_value(quantity_verdict, judged)))
       verified = quantity_value(quantity_verdict_verified, judged)
-      if (.not. ieee_is_nan(verified)) &
-         sentence = sentence//trim(merge(' (verified) ', ' (uncertain)', verified > 0.0_dp))
+      if (.not. ieee_is_nan(verified)) sentence = sentence//in_brackets(verified > 0.0_dp)
+      sentence = sentence//'; '//spaced(quantity_word(quantity_rattle_class, judged%rattle%class))
+      if (judged%verification%exists) sentence = sentence//in_brackets(judged%verification%verified)
+      sentence = sentence//', '//trim(sounds(judged%rattle%class))
       associate (severity => judged%severity, errors => judged%statistics%severity)
          sentence = sentence//': film force rms '//short_text(severity%film_force_rms, 4)// &
                     scatter(errors%film_force_rms, severity%film_force_rms)//' N, acceleration rms '// &
@@ -441,6 +443,14 @@ contains
          short_text(20.0_dp*log10(judged%severity%acceleration_rms/level_reference), 4)//' dB re 1e-6 m/s2)'
 
    contains
+
+      !> Whether something is verified, which is of the numbers, not of the model.
+      pure function in_brackets(verified) result(words)
+         logical, intent(in) :: verified
+         character(:), allocatable :: words
+
+         words = ' ('//spoken_verification(verified)//')'
+      end function in_brackets
 
       !> Two standard errors of a number of an irregular motion; empty for others.
       pure function scatter(standard_error, number) result(words)

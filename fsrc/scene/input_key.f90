@@ -33,7 +33,7 @@ module input_key
       !> Allowed numbers
       type(range_t) :: range
       !> Allowed words, separated by blanks; empty: any text that the reader accepts
-      character(3000) :: choices
+      character(3400) :: choices
       !> Rules with ' & ' between, all of which must hold; empty: always legal. 'group.key=word[|word]': it has one of these words;
       !> 'group.key[|group.key]': one of these is given; 'without group.key': it is not.
       character(128) :: used_when

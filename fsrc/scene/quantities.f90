@@ -32,6 +32,8 @@ module quantities
          quantity_film_dissipated_power, quantity_tooth_dissipated_power, quantity_coast_film_minimum, &
          quantity_coast_film_maximum, quantity_coast_load_maximum, quantity_reversal, &
          quantity_unloaded_share, quantity_separation, quantity_impacts_per_period_drive, quantity_impacts_per_period_coast, &
+         quantity_impacts_per_second_drive, quantity_impacts_per_second_coast, quantity_impacts_per_revolution_drive, &
+         quantity_impacts_per_revolution_coast, &
          quantity_impact_load_maximum_drive, quantity_impact_load_maximum_coast, quantity_impact_velocity_maximum_drive, &
          quantity_impact_velocity_maximum_coast, quantity_impact_impulse_maximum_drive, quantity_impact_impulse_maximum_coast, &
          quantity_impact_impulse_mean_drive, quantity_impact_impulse_mean_coast, quantity_double_sided, quantity_verdict, &
@@ -39,8 +41,9 @@ module quantities
          quantity_impact_loads_drive, quantity_impact_velocities_drive, quantity_impact_impulses_drive, &
          quantity_impact_times_coast, quantity_impact_loads_coast, quantity_impact_velocities_coast, &
          quantity_impact_impulses_coast, quantity_gear_position_minimum, quantity_gear_position_maximum, quantity_model_limit, &
-         quantity_reversals_per_period, quantity_harmonics, quantity_first_harmonic, quantity_harmonic_count, &
-         quantity_harmonic_count_is_bound, quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, &
+         quantity_reversals_per_period, quantity_reversals_per_second, quantity_reversals_per_revolution, quantity_harmonics, &
+         quantity_first_harmonic, quantity_harmonic_count, quantity_harmonic_count_is_bound, quantity_spectral_reach, &
+         quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, &
          quantity_irregular_fraction, quantity_irregular_fraction_is_bound, quantity_sampling_sufficient, quantity_rattle_class, &
          quantity_motions, quantity_starts_solved, quantity_unsettled_starts, quantity_start_periods, quantity_loudest_class, &
          quantity_loudest_verdict, quantity_loudest_acceleration_rms, quantity_loudest_film_force_rms, &
@@ -65,8 +68,9 @@ module quantities
                          contact_impacts_per_period = 5, contact_impact_load_maximum = 6, contact_impact_velocity_maximum = 7, &
                          contact_impact_impulse_maximum = 8, contact_impact_impulse_mean = 9, contact_impact_times = 10, &
                          contact_impact_loads = 11, contact_impact_velocities = 12, contact_impact_impulses = 13, &
-                         contact_impacts_per_period_error = 14, contact_impact_impulse_mean_error = 15
-   integer, parameter :: quantities_of_contacts(2, 15) = reshape([ &
+                         contact_impacts_per_period_error = 14, contact_impact_impulse_mean_error = 15, &
+                         contact_impacts_per_second = 16, contact_impacts_per_revolution = 17
+   integer, parameter :: quantities_of_contacts(2, 17) = reshape([ &
       quantity_film_minimum, quantity_coast_film_minimum, &
       quantity_film_maximum, quantity_coast_film_maximum, &
       quantity_load_maximum, quantity_coast_load_maximum, &
@@ -81,7 +85,9 @@ module quantities
       quantity_impact_velocities_drive, quantity_impact_velocities_coast, &
       quantity_impact_impulses_drive, quantity_impact_impulses_coast, &
       quantity_impacts_per_period_error_drive, quantity_impacts_per_period_error_coast, &
-      quantity_impact_impulse_mean_error_drive, quantity_impact_impulse_mean_error_coast], [2, 15])
+      quantity_impact_impulse_mean_error_drive, quantity_impact_impulse_mean_error_coast, &
+      quantity_impacts_per_second_drive, quantity_impacts_per_second_coast, &
+      quantity_impacts_per_revolution_drive, quantity_impacts_per_revolution_coast], [2, 17])
 
    !> One quantity.
    type :: quantity_t
@@ -201,6 +207,14 @@ module quantities
       quantity_t(quantity_impacts_per_period_coast, 'impacts_per_period_coast', '-', a_number, part_window, needs_impacts, &
          'summary flanks campaign', &
          'Impacts on the coast flank a period: maxima of its load above impact_limit times F_max, the largest |F + m g|.'), &
+      quantity_t(quantity_impacts_per_second_drive, 'impacts_per_second_drive', '1/s', a_number, part_window, needs_impacts, &
+         'summary campaign', 'impacts_per_period_drive times the frequency.'), &
+      quantity_t(quantity_impacts_per_second_coast, 'impacts_per_second_coast', '1/s', a_number, part_window, needs_impacts, &
+         'summary campaign', 'impacts_per_period_coast times the frequency.'), &
+      quantity_t(quantity_impacts_per_revolution_drive, 'impacts_per_revolution_drive', '-', a_number, part_window, &
+         needs_impacts, 'summary campaign', 'Impacts on the drive flank in a revolution of the loose gear of &gear.'), &
+      quantity_t(quantity_impacts_per_revolution_coast, 'impacts_per_revolution_coast', '-', a_number, part_window, &
+         needs_impacts, 'summary campaign', 'Impacts on the coast flank in a revolution of the loose gear of &gear.'), &
       quantity_t(quantity_impact_load_maximum_drive, 'impact_load_maximum_drive', 'N', a_number, part_window, needs_impacts, &
          'summary sweep campaign', 'Largest load of an impact on the drive flank; 0: there is none.'), &
       quantity_t(quantity_impact_load_maximum_coast, 'impact_load_maximum_coast', 'N', a_number, part_window, needs_impacts, &
@@ -262,14 +276,21 @@ module quantities
          'Where the motion leaves what the model can mean.', 'within|too_wide|too_narrow|too_wide_and_narrow'), &
       quantity_t(quantity_reversals_per_period, 'reversals_per_period', '-', a_number, part_window, needs_spectrum, &
          'summary campaign', 'Turns of the acceleration that stand out from the curve, a period of the force.'), &
+      quantity_t(quantity_reversals_per_second, 'reversals_per_second', '1/s', a_number, part_window, needs_spectrum, &
+         'summary campaign', 'reversals_per_period times the frequency.'), &
+      quantity_t(quantity_reversals_per_revolution, 'reversals_per_revolution', '-', a_number, part_window, needs_spectrum, &
+         'summary campaign', 'Turns of the acceleration that stand out, in a revolution of the loose gear of &gear.'), &
       quantity_t(quantity_harmonics, 'harmonics', 'm/s2', a_list, part_window, needs_spectrum, 'summary campaign', &
          'Amplitudes of the acceleration at multiples of the frequency of the force: 40 in a summary, harmonic_1 to 8 in a row.'), &
       quantity_t(quantity_first_harmonic, 'first_harmonic', 'm/s2', a_number, part_spectrum, needs_spectrum, 'sweep', &
          'Amplitude of the acceleration at the frequency of the force.'), &
       quantity_t(quantity_harmonic_count, 'harmonic_count', '-', a_count, part_spectrum, needs_spectrum, 'summary sweep campaign', &
-         'Harmonics above the harmonic threshold.'), &
+         'Multiples of the dominant order of the force with harmonics about them above the harmonic threshold.'), &
       quantity_t(quantity_harmonic_count_is_bound, 'harmonic_count_is_bound', '-', a_flag, part_spectrum, needs_spectrum, &
          'summary sweep campaign', 'Whether there may be more harmonics beyond the highest that is resolved.'), &
+      quantity_t(quantity_spectral_reach, 'spectral_reach', '-', a_number, part_spectrum, needs_spectrum, 'summary campaign', &
+         'Multiple of the dominant order of the force up to which 99 % of the power lies that is not at its orders; '// &
+         'unknown where less is resolved.'), &
       quantity_t(quantity_harmonic_distortion, 'harmonic_distortion', '-', a_number, part_spectrum, needs_spectrum, &
          'summary sweep campaign', 'All harmonics from the second on over the first.'), &
       quantity_t(quantity_harmonic_distortion_is_bound, 'harmonic_distortion_is_bound', '-', a_flag, part_spectrum, &
@@ -318,15 +339,16 @@ module quantities
       quantity_t(quantity_batch_periods, 'batch_periods', '-', a_count, part_class, needs_spectrum, 'summary campaign', &
          'Of an irregular motion: periods of the batches, next to uncorrelated, whose means give its standard errors.'), &
       quantity_t(quantity_verified, 'verified', '-', a_flag, part_class, needs_verification, 'campaign', &
-         'Whether the class is verified: a second solution with a tighter tolerance agrees.'), &
+         'Whether the class is verified: a second, tighter solution agrees, or both halves of what was followed of an '// &
+         'irregular motion.'), &
       quantity_t(quantity_verdict_verified, 'verdict_verified', '-', a_flag, part_class, needs_verified_impacts, &
          'summary campaign', &
          'Whether the verdict is the same when the scene is solved again, tighter; by a part of the motion only if every '// &
          'flank is hit.'), &
       quantity_t(quantity_impacts_verified, 'impacts_verified', '-', a_flag, part_class, needs_verified_impacts, &
          'summary campaign', &
-         'Whether each flank has as many impacts a period when the scene is solved again, tighter, over a whole motion; '// &
-         'irregular ones seldom do.'), &
+         'Whether each flank has as many impacts a period when solved again, tighter, over a whole motion; of an '// &
+         'irregular one, whether its halves agree.'), &
       quantity_t(quantity_film_error, 'film_error', '-', a_number, part_errors, needs_verification, 'summary', &
          'Largest error of the films of both flanks over the window, relative to the thinner one.'), &
       quantity_t(quantity_film_minimum_error, 'film_minimum_error', 'm', a_number, part_errors, needs_verification, 'summary', &

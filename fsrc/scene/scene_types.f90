@@ -317,6 +317,8 @@ module scene_types
       integer :: periods = 16
       !> Orders at which the force makes harmonics
       logical :: forced(highest_order) = [.true., spread(.false., 1, highest_order - 1)]
+      !> Order with the largest force, whose multiples the harmonics are counted by
+      integer :: dominant_order = 1
       !> A harmonic above this share of the largest forced one counts
       real(dp) :: harmonic_threshold = 0.01_dp
       !> From this many harmonics on: idle
@@ -474,7 +476,7 @@ module scene_types
       end function fma
    end interface
 
-   public :: forced_orders, is_shared_task, set_number
+   public :: dominant_order, forced_orders, is_shared_task, set_number
 
 contains
 
@@ -669,6 +671,16 @@ contains
       forced = .false.
       forced(pack(orders, orders <= highest_order .and. amplitudes >= least_share*maxval(amplitudes))) = .true.
    end function forced_orders
+
+   !> Order with the largest force, the lowest of equal ones.
+   pure integer function dominant_order(orders, amplitudes)
+      integer, intent(in) :: orders(:)
+      !> Of each order [N]
+      real(dp), intent(in) :: amplitudes(:)
+
+      ! Equal but for rounding.
+      dominant_order = minval(orders, mask=amplitudes >= (1.0_dp - 1.0e-9_dp)*maxval(amplitudes))
+   end function dominant_order
 
    !> How the drag torque of a pair is known.
    pure integer function drag_known_by(self)

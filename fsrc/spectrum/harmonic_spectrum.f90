@@ -21,10 +21,12 @@ module harmonic_spectrum
       !> [m/s2]
       integer :: largest_forced = 1
       real(dp) :: forced_amplitude = 0.0_dp
-      !> How many a_n exceed the harmonic threshold times the largest forced one, of the forced ones that alone, and whether there
-      !> may be more beyond the highest of them
+      !> How many multiples of the dominant order of the force have harmonics about them that exceed the harmonic threshold times
+      !> the largest forced one, of the forced ones that alone, and whether there may be more beyond the highest of them
       integer :: harmonic_count = 0
       logical :: count_is_bound = .false.
+      !> Multiple of the dominant order up to which `reach_share` of the power at harmonics that are not forced lies [-]; 0: unknown
+      real(dp) :: spectral_reach = 0.0_dp
       !> Root of the sum of squares of all harmonics that are not forced, over that of the forced ones, and whether it may be larger
       real(dp) :: harmonic_distortion = 0.0_dp
       logical :: distortion_is_bound = .false.
@@ -39,18 +41,22 @@ module harmonic_spectrum
       logical :: moving = .true.
    end type harmonic_spectrum_t
 
-   public :: find_harmonics, find_harmonics_by_integrals
+   !> Share of the power beyond the forced harmonics that `spectral_reach` leaves below it.
+   real(dp), parameter :: reach_share = 0.99_dp
+
+   public :: find_harmonics, find_harmonics_by_integrals, gather_about_multiples
 
 contains
 
    !> Harmonics of a window of acceleration samples.
-   subroutine find_harmonics(acceleration, periods, forced, harmonic_threshold, noise_floor, spectrum)
+   subroutine find_harmonics(acceleration, periods, forced, dominant, harmonic_threshold, noise_floor, spectrum)
       !> Samples of whole periods, the same count in each [m/s2]
       real(dp), intent(in) :: acceleration(:)
       !> Periods in the window, a divisor of the count of samples
       integer, intent(in) :: periods
-      !> Orders of the force
+      !> Orders of the force, and that of its largest
       logical, intent(in) :: forced(:)
+      integer, intent(in) :: dominant
       !> A harmonic above this share of the largest forced one counts [-]
       real(dp), intent(in) :: harmonic_threshold
       !> Amplitude that the errors of the solution explain [m/s2]
@@ -62,7 +68,8 @@ contains
       call amplitude_spectrum(acceleration, amplitudes)
       ! A harmonic stands for two bins of the transform; that at half the samples is one bin, whose square counts twice.
       call harmonics_of_bins(amplitudes, periods, (size(acceleration)/periods - 1)/2, mod(size(acceleration), 2) == 0, &
-                         forced, harmonic_threshold, noise_floor, spectrum)
+                         forced, dominant, harmonic_threshold, noise_floor, spectrum)
+      if (.not. spectrum%sampling_sufficient) spectrum%spectral_reach = 0.0_dp
       spectrum%count_is_bound = .not. spectrum%sampling_sufficient
       spectrum%distortion_is_bound = .not. spectrum%sampling_sufficient
       spectrum%irregular_is_bound = .not. spectrum%sampling_sufficient
@@ -70,8 +77,8 @@ contains
 
    !> Harmonics of a window from harmonics found by integrals over its steps, and its power: what lies beyond the highest harmonic
    !> is power too.
-   pure subroutine find_harmonics_by_integrals(harmonics, harmonic_power, known_beyond, power, forced, harmonic_threshold, &
-                                           noise_floor, spectrum)
+   pure subroutine find_harmonics_by_integrals(harmonics, harmonic_power, known_beyond, power, forced, dominant, &
+                                           harmonic_threshold, noise_floor, spectrum)
       !> a_1, a_2, ... [m/s2]
       real(dp), intent(in) :: harmonics(:)
       !> Power that belongs to harmonics, in units of `power`
@@ -81,15 +88,16 @@ contains
       logical, intent(in) :: known_beyond
       !> Twice the mean square of z'' about its mean: the sum of the squares of all harmonics [m2/s4]
       real(dp), intent(in) :: power
-      !> Orders of the force
+      !> Orders of the force, and that of its largest
       logical, intent(in) :: forced(:)
+      integer, intent(in) :: dominant
       !> A harmonic above this share of the largest forced one counts [-]
       real(dp), intent(in) :: harmonic_threshold
       !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
       !> The harmonics
       type(harmonic_spectrum_t), intent(out) :: spectrum
-      real(dp) :: unforced(size(harmonics)), tail
+      real(dp) :: unforced(size(harmonics)), tail, unforced_amplitude
 
       allocate (spectrum%harmonics, source=harmonics)
       call hold_against_force(harmonics, forced, spectrum%largest_forced, spectrum%forced_amplitude, unforced)
@@ -97,7 +105,7 @@ contains
       spectrum%moving = sqrt(max(0.0_dp, power)) > noise_floor
       if (.not. spectrum%moving) return
       spectrum%distortion_is_bound = .not. known_beyond
-      spectrum%harmonic_count = harmonics_above(harmonic_threshold, harmonics(spectrum%largest_forced), unforced)
+      spectrum%harmonic_count = harmonics_above(harmonic_threshold, harmonics(spectrum%largest_forced), unforced, dominant)
       tail = maxval(harmonics((3*size(harmonics))/4 + 1:))
       spectrum%count_is_bound = tail > max(noise_floor, sampling_tolerance*harmonic_threshold*harmonics(spectrum%largest_forced))
       spectrum%harmonic_distortion = huge(1.0_dp)
@@ -108,10 +116,14 @@ contains
                (harmonic_power/forced_amplitude)/forced_amplitude - 1.0_dp)))
          end if
       end associate
+      unforced_amplitude = max(norm2(unforced), sqrt(max(0.0_dp, harmonic_power - spectrum%forced_amplitude**2)))
+      if (known_beyond .and. unforced_amplitude > noise_floor) &
+         spectrum%spectral_reach = reach_of(unforced, dominant, unforced_amplitude)
    end subroutine find_harmonics_by_integrals
 
    !> Harmonics of a window from the amplitudes of its bins.
-   subroutine harmonics_of_bins(amplitudes, periods, resolved, last_is_half, forced, harmonic_threshold, noise_floor, spectrum)
+   subroutine harmonics_of_bins(amplitudes, periods, resolved, last_is_half, forced, dominant, harmonic_threshold, &
+                                noise_floor, spectrum)
       !> Amplitudes from 0 on; on return in another unit
       real(dp), allocatable, intent(inout) :: amplitudes(:)
       !> Periods in the window
@@ -121,6 +133,7 @@ contains
       !> Whether the last bin stands for one bin of the transform alone
       logical, intent(in) :: last_is_half
       logical, intent(in) :: forced(:)
+      integer, intent(in) :: dominant
       real(dp), intent(in) :: harmonic_threshold
       real(dp), intent(in) :: noise_floor
       type(harmonic_spectrum_t), intent(out) :: spectrum
@@ -141,7 +154,9 @@ contains
       call hold_against_force(spectrum%harmonics, forced, spectrum%largest_forced, spectrum%forced_amplitude, unforced)
       if (spectrum%moving) then
          spectrum%irregular_fraction = max(0.0_dp, 1.0_dp - harmonic_power/power)
-         spectrum%harmonic_count = harmonics_above(harmonic_threshold, spectrum%harmonics(spectrum%largest_forced), unforced)
+         spectrum%harmonic_count = harmonics_above(harmonic_threshold, spectrum%harmonics(spectrum%largest_forced), unforced, &
+                                                   dominant)
+         if (norm2(unforced) > least) spectrum%spectral_reach = reach_of(unforced, dominant, norm2(unforced))
          spectrum%harmonic_distortion = huge(1.0_dp)
          if (spectrum%forced_amplitude > least) &
             spectrum%harmonic_distortion = sqrt(unforced(1)**2 + sum(unforced(2:)**2))/spectrum%forced_amplitude
@@ -178,14 +193,60 @@ contains
       if (amplitude > 0.0_dp) amplitude = amplitude*sqrt(sum((merge(harmonics, 0.0_dp, mask)/amplitude)**2))
    end subroutine hold_against_force
 
-   !> Harmonics above a share of the largest forced one: that one, and those that are not forced.
-   pure integer function harmonics_above(share, largest_forced, unforced)
+   !> Multiples of the dominant order with harmonics above a share of the largest forced one: that one, and those about which
+   !> harmonics are not forced. Of a force that is one cosine every harmonic is such a multiple.
+   pure integer function harmonics_above(share, largest_forced, unforced, dominant)
       real(dp), intent(in) :: share
       !> [m/s2]
       real(dp), intent(in) :: largest_forced
       real(dp), intent(in) :: unforced(:)
+      integer, intent(in) :: dominant
 
-      harmonics_above = merge(1, 0, largest_forced > share*largest_forced) + count(unforced > share*largest_forced)
+      associate (gathered => gather_about_multiples(unforced, dominant))
+         harmonics_above = merge(1, 0, largest_forced > share*largest_forced) + count(gathered(2:) > share*largest_forced)
+      end associate
    end function harmonics_above
+
+   !> Root of the sum of squares of the harmonics about each multiple of an order: those nearer to it than to others, half way
+   !> between two those of the upper one; those below the first with that. It depends on the orders as multiples of that one alone,
+   !> not on the period that they are multiples of.
+   pure function gather_about_multiples(harmonics, dominant) result(gathered)
+      !> a_1, a_2, ...
+      real(dp), intent(in) :: harmonics(:)
+      integer, intent(in) :: dominant
+      real(dp) :: gathered(max(1, (2*size(harmonics) + dominant)/(2*dominant)))
+      integer :: multiple, first, last
+
+      first = 1
+      do multiple = 1, size(gathered)
+         last = min(size(harmonics), ((2*multiple + 1)*dominant + 1)/2 - 1)
+         gathered(multiple) = norm2(harmonics(first:last))
+         first = last + 1
+      end do
+   end function gather_about_multiples
+
+   !> Multiple of the dominant order up to which nearly all of an amplitude lies, between two by their shares of the power; 0 if
+   !> less lies at the harmonics.
+   pure real(dp) function reach_of(unforced, dominant, amplitude) result(reach)
+      real(dp), intent(in) :: unforced(:)
+      integer, intent(in) :: dominant
+      !> Root of the sum of squares of all harmonics that are not forced, above 0
+      real(dp), intent(in) :: amplitude
+      real(dp) :: below, here
+      integer :: multiple
+
+      reach = 0.0_dp
+      below = 0.0_dp
+      associate (gathered => gather_about_multiples(unforced, dominant))
+         do multiple = 1, size(gathered)
+            here = (gathered(multiple)/amplitude)**2
+            if (below + here >= reach_share) then
+               reach = real(multiple - 1, dp) + (reach_share - below)/here
+               return
+            end if
+            below = below + here
+         end do
+      end associate
+   end function reach_of
 
 end module harmonic_spectrum

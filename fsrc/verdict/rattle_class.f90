@@ -22,6 +22,11 @@ module rattle_class
       type(harmonic_spectrum_t) :: spectrum
    end type rattle_verdict_t
 
+   !> What a motion of each class sounds like, whatever the tooth does: an impact is a matter of the verdict.
+   character(*), parameter, public :: sounds(6) = [character(49) :: &
+      'a sound of little beside the orders of the force', 'a sound of few harmonics', 'a sound of many harmonics', &
+      'a sound that does not repeat', 'a sound that repeats after several periods', 'a sound that has not repeated so far']
+
    public :: classify, classify_steps, note_orbit, note_parting, note_known, is_off_harmonics
 
 contains
@@ -36,7 +41,8 @@ contains
       real(dp), intent(in) :: noise_floor
       type(rattle_verdict_t), intent(out) :: verdict
 
-      call find_harmonics(acceleration, choice%periods, choice%forced, choice%harmonic_threshold, noise_floor, verdict%spectrum)
+      call find_harmonics(acceleration, choice%periods, choice%forced, choice%dominant_order, choice%harmonic_threshold, &
+                          noise_floor, verdict%spectrum)
       verdict%class = class_of(verdict%spectrum, choice)
       if (verdict%spectrum%moving) verdict%reversals_per_period = &
          real(count_reversals(acceleration, reversal_prominence), dp)/real(choice%periods, dp)
@@ -133,7 +139,8 @@ contains
          end if
          call find_harmonics_by_integrals(2.0_dp*frequency*harmonics, share_repeating*power, &
                                       .not. (is_bound .and. irregular_fraction > choice%irregular_limit), &
-                                      power, choice%forced, choice%harmonic_threshold, noise_floor, verdict%spectrum)
+                                      power, choice%forced, choice%dominant_order, choice%harmonic_threshold, noise_floor, &
+                                          verdict%spectrum)
          if (verdict%spectrum%moving) verdict%spectrum%irregular_fraction = irregular_fraction
          verdict%spectrum%irregular_is_bound = is_bound .and. verdict%spectrum%moving
       end associate

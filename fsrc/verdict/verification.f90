@@ -5,6 +5,7 @@ module verification
       doubt_film, doubt_flight, doubt_fraction_close, doubt_fraction_error, doubt_halves, doubt_impacts, doubt_largest_harmonic, &
       doubt_momentum, doubt_parting, doubt_return, doubt_sentence, doubt_t, first_doubt, is_doubted, parting_sentence
    use carried_loads, only: films_of
+   use harmonic_spectrum, only: gather_about_multiples
    use irregular_statistics, only: irregular_statistics_t
    use kinds, only: dp
    use vibration_severity, only: severity_numbers, vibration_severity_t
@@ -14,7 +15,7 @@ module verification
    use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, is_off_harmonics, rattle_verdict_t
    use scene_types, only: spectrum_choice_t
    use window_extremes, only: window_extremes_t
-   use window_impacts, only: impact_agreement_t, impacts_per_period, impulse_mean, window_impacts_t
+   use window_impacts, only: impact_agreement_t, impulse_mean, window_impacts_t
    use window_record, only: energy_gap, momentum_gap, window_record_t
    implicit none(type, external)
    private
@@ -66,7 +67,8 @@ module verification
    real(dp), parameter :: least_reversals = 8.0_dp
 
    public :: compare_windows, irregular_verification, note_severity_errors, note_impact_errors, no_verification, &
-             verification_word, verification_sentence, doubt_of_windows, doubt_of_closing, doubt_of_flight, doubt_of_impacts, &
+             spoken_verification, verification_word, verification_sentence, &
+             doubt_of_windows, doubt_of_closing, doubt_of_flight, doubt_of_impacts, &
              doubt_of_return, films_of_ends
 
 contains
@@ -212,7 +214,10 @@ contains
       type(window_impacts_t), intent(in) :: tight
       type(verification_t), intent(inout) :: verification
 
-      verification%impacts_per_period_errors = margin*abs(impacts_per_period(impacts) - impacts_per_period(tight))
+      ! By whole numbers, so that what agrees has no error.
+      verification%impacts_per_period_errors = margin*abs(real(impacts%contacts%count*tight%periods - &
+                                                               tight%contacts%count*impacts%periods, dp)) &
+                                               /real(max(1, impacts%periods)*max(1, tight%periods), dp)
       verification%impulse_mean_errors = margin*abs(impulse_mean(impacts%contacts) - impulse_mean(tight%contacts))
    end subroutine note_impact_errors
 
@@ -379,10 +384,10 @@ contains
       type(rattle_verdict_t), intent(in) :: tight_verdict
       real(dp), intent(in) :: errors(:)
       type(spectrum_choice_t), intent(in) :: choice
-      real(dp) :: unforced(size(errors))
-      integer, allocatable :: others(:)
-      real(dp) :: forced_error, distortion_error, threshold
-      integer :: first, known, fewest, most, i
+      real(dp), dimension(size(errors)) :: unforced, others
+      real(dp), allocatable :: gathered(:), their_errors(:)
+      real(dp) :: forced_error, distortion_error
+      integer :: first, known, fewest, most
 
       doubt = doubt_t()
       associate (spectrum => verdict%spectrum, a => verdict%spectrum%harmonics)
@@ -407,11 +412,17 @@ contains
                doubt = doubt_t(doubt_distortion_bound)
             return
          end if
-         threshold = choice%harmonic_threshold
-         others = [(i, i=1, size(errors))]
-         others = pack(others, others == first .or. [.not. choice%forced(:known), spread(.true., 1, size(errors) - known)])
-         fewest = count(a(others) - errors(others) > threshold*(a(first) + errors(first)))
-         most = count(a(others) + errors(others) > threshold*(a(first) - errors(first)))
+         others = a(:size(errors))
+         where (choice%forced(:known)) others(:known) = 0.0_dp
+         ! The error of a root of a sum of squares is at most that root of the errors.
+         gathered = gather_about_multiples(others, choice%dominant_order)
+         their_errors = gather_about_multiples(unforced, choice%dominant_order)
+         associate (threshold => choice%harmonic_threshold, largest => [a(first) + errors(first), a(first) - errors(first)])
+            fewest = count([a(first) - errors(first) > threshold*largest(1), &
+                            gathered(2:) - their_errors(2:) > threshold*largest(1)])
+            most = count([a(first) + errors(first) > threshold*largest(2), &
+                          gathered(2:) + their_errors(2:) > threshold*largest(2)])
+         end associate
          if (fewest < choice%idle_harmonics .and. (spectrum%count_is_bound .or. tight_verdict%spectrum%count_is_bound)) then
             doubt = doubt_t(doubt_count_bound, counts=[fewest, 0])
          else if (fewest < choice%idle_harmonics .and. most >= choice%idle_harmonics) then
@@ -429,6 +440,15 @@ contains
       word = 'uncertain'
       if (verification%verified) word = 'verified'
    end function verification_word
+
+   !> The same for a reader: it is the numbers that are verified, not the model.
+   pure function spoken_verification(verified) result(words)
+      logical, intent(in) :: verified
+      character(:), allocatable :: words
+
+      words = 'uncertain'
+      if (verified) words = 'numerically verified'
+   end function spoken_verification
 
    !> Why the class is not verified, or that it is.
    pure function verification_sentence(verification) result(sentence)

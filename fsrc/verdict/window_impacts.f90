@@ -30,7 +30,7 @@ module window_impacts
    end type impact_agreement_t
 
    public :: impacts_of_record, impacts_of_samples, has_reversal, has_separation, verdict_of, agreement_of, &
-             impacts_per_period, impulse_mean, list_impacts_of
+             impulse_mean, list_impacts_of
 
 contains
 
@@ -95,15 +95,6 @@ contains
          end associate
       end do
    end subroutine list_impacts_of
-
-   !> Impacts a period on each contact [-].
-   pure function impacts_per_period(impacts) result(numbers)
-      !> Of a window that was asked for impacts
-      type(window_impacts_t), intent(in) :: impacts
-      real(dp) :: numbers(most_contacts)
-
-      numbers = real(impacts%contacts%count, dp)/real(max(1, impacts%periods), dp)
-   end function impacts_per_period
 
    !> Mean impulse of the impacts on a contact [N s], 0 where there is none.
    elemental real(dp) function impulse_mean(impacts)

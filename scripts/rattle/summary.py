@@ -127,6 +127,13 @@ def _flag(label: str, quantity: str, when_set: str, otherwise: str) -> Row:
     return label, lambda summary: when_set if summary[quantity] else otherwise
 
 
+def _rigid_teeth_fit(summary: Summary) -> str:
+    """Of elastic teeth, which leave a gap of their own, nothing is said."""
+    if "gear_position_minimum" in summary:
+        return ABSENT
+    return "no" if summary["stiffness_matters"] else "yes"
+
+
 def _shown_unit(quantity: str) -> tuple[str, float]:
     """The unit of the table of quantities, lengths in micrometres."""
     unit = QUANTITIES[quantity].unit
@@ -149,7 +156,10 @@ _ROWS: tuple[Row, ...] = (
     _number("reversals a period", "reversals_per_period", "g"),
     _text("rattle class", "rattle_class"),
     _flag("both flanks struck", "double_sided", "yes", "no"),
-    _text("verification", "verification"),
+    (
+        "verification",
+        lambda summary: str(summary["verification"]).strip().replace("verified", "numerically verified"),
+    ),
     (
         "error of the film",
         lambda summary: f"{stated_error(float(summary['film_error']), 1.0, FILM_DIGITS):.1e}",
@@ -157,7 +167,7 @@ _ROWS: tuple[Row, ...] = (
     _text("motion", "orbit_stability"),
     _text("film regime", "film_regime"),
     _flag("law fits", "law_contradicted", "no", "yes"),
-    _flag("rigid teeth fit", "stiffness_matters", "no", "yes"),
+    ("rigid teeth fit", _rigid_teeth_fit),
     _number("largest alpha p", "alpha_p_maximum", ".3g"),
     _number("natural frequency", "natural_frequency", ".1f"),
     _number("damping ratio", "damping_ratio", ".4f"),

@@ -9,7 +9,7 @@ module judged_scenes
    use random_walk, only: next_uniform, random_state_t
    use random_scenes, only: choose_law, draw, draw_scene, drawn_scene_t, laws
    use prepared_scene, only: resolve
-   use scene_types, only: forced_orders, iteration_newton, iteration_successive, law_piezo_viscous, method_newmark, method_taylor, &
+   use scene_types, only: dominant_order, forced_orders, iteration_newton, iteration_successive, law_piezo_viscous, method_newmark, method_taylor, &
                           model_reynolds, &
                           predictor_extrapolated, predictor_previous, scene_t, until_periods, until_steady
    implicit none(type, external)
@@ -254,6 +254,7 @@ contains
          excitation%force_amplitudes = pack(weights, is_there)*(excitation%force_amplitude/sum(weights))
          excitation%force_phases = pack(phases, is_there)
          scene%spectrum%forced = forced_orders(excitation%force_orders, excitation%force_amplitudes)
+         scene%spectrum%dominant_order = dominant_order(excitation%force_orders, excitation%force_amplitudes)
       end associate
    end subroutine draw_orders
 

@@ -95,7 +95,8 @@ contains
             start%numbers(of_film) = 1.02_dp*start%numbers(of_film)
             start%numbers(of_velocity) = 0.003_dp
             start%numbers(state_size(problem)) = 0.98_dp*start%numbers(state_size(problem))
-            exact = augmented(start%numbers)
+            if (allocated(exact)) deallocate (exact)
+            allocate (exact, source=augmented(start%numbers))
             call put_loads(chain, problem, exact)
             start%numbers = exact(:state_size(problem))
             allocate (states(samples*periods, state_size(problem), 1), source=0.0_dp)

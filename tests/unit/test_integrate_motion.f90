@@ -58,7 +58,7 @@ contains
       if (ending%status /= status_complete) return
       response%extremes = [minval(recorder%states(:, of_film, 1)), maxval(recorder%states(:, of_film, 1)), &
                              minval(recorder%accelerations), maxval(recorder%accelerations)]
-      call find_harmonics(recorder%accelerations, 1, [.true.], 0.01_dp, 1.0e-10_dp, response%spectrum)
+      call find_harmonics(recorder%accelerations, 1, [.true.], 1, 0.01_dp, 1.0e-10_dp, response%spectrum)
       response%harmonics = response%spectrum%harmonics(:6)
    end subroutine respond
 

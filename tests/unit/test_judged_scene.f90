@@ -43,6 +43,7 @@ contains
       scene%contact%damping_ratio = 0.02_dp
       judged%resolved = resolve(scene)
       judged%resolved%steady_film = 1.5_dp
+      judged%resolved%gear_speed = 9.0_dp
       judged%resolved%natural_frequency = 2.5_dp
       judged%resolved%damping_ratio = 3.5_dp
       judged%resolved%drag%known_by = drag_computed
@@ -66,6 +67,7 @@ contains
       judged%rattle%spectrum%harmonic_count = 23
       judged%rattle%spectrum%harmonic_distortion = 24.0_dp
       judged%rattle%spectrum%irregular_fraction = 25.0_dp
+      judged%rattle%spectrum%spectral_reach = 26.0_dp
       judged%severity%acceleration_rms = 31.0_dp
       judged%severity%acceleration_kurtosis = 32.0_dp
       judged%severity%film_force_rms = 33.0_dp
@@ -150,6 +152,9 @@ contains
       call expect('samples_per_period', 64.0_dp)
       call expect('rattle_class', real(class_idle, dp))
       call expect('reversals_per_period', 11.0_dp)
+      call expect('reversals_per_second', 11.0_dp*judged%resolved%problem%frequency)
+      call expect('reversals_per_revolution', 11.0_dp*judged%resolved%problem%frequency/9.0_dp)
+      call expect('spectral_reach', 26.0_dp)
       call expect('lyapunov_exponent', 0.125_dp)
       call expect('harmonic_count', 23.0_dp)
       call expect('harmonic_distortion', 24.0_dp)
@@ -204,6 +209,10 @@ contains
       call expect('impacts_coast', 20.0_dp)
       call expect('impacts_per_period_drive', 2.0_dp)
       call expect('impacts_per_period_coast', 5.0_dp)
+      call expect('impacts_per_second_drive', 2.0_dp*judged%resolved%problem%frequency)
+      call expect('impacts_per_second_coast', 5.0_dp*judged%resolved%problem%frequency)
+      call expect('impacts_per_revolution_drive', 2.0_dp*judged%resolved%problem%frequency/9.0_dp)
+      call expect('impacts_per_revolution_coast', 5.0_dp*judged%resolved%problem%frequency/9.0_dp)
       call expect('impact_load_maximum_drive', 61.0_dp)
       call expect('impact_load_maximum_coast', 62.0_dp)
       call expect('impact_velocity_maximum_drive', 63.0_dp)
@@ -282,6 +291,8 @@ contains
       call checks%check(ieee_is_nan(quantity_value(code_of('verified'), judged)), 'no verification')
       judged%rattle%spectrum%moving = .false.
       call checks%check(ieee_is_nan(quantity_value(code_of('harmonic_count'), judged)), 'no lines at rest')
+      judged%resolved%gear_speed = 0.0_dp
+      call checks%check(ieee_is_nan(quantity_value(code_of('reversals_per_revolution'), judged)), 'no gear, no revolution')
       judged%regime%pressure_exists = .false.
       call checks%check(ieee_is_nan(quantity_value(code_of('pressure_maximum'), judged)), 'no pressure')
       judged%judged = .false.

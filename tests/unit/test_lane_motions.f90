@@ -143,7 +143,7 @@ contains
          call checks%check(motions%endings(i)%status == status_complete .and. &
                            motions%endings(i)%samples == samples, trim(names(law))//': ended well')
          call accelerations_of_samples(lanes(i), samples, motions%states(:, :, i), values)
-         call find_harmonics(values, 1, [.true.], 0.01_dp, 1.0e-10_dp, spectrum)
+         call find_harmonics(values, 1, [.true.], 1, 0.01_dp, 1.0e-10_dp, spectrum)
          call checks%check_close(maxval(abs(spectrum%harmonics(:6)/harmonics(:, law) - 1.0_dp)), 0.0_dp, &
                                  1.0e-6_dp, &
                                  trim(names(law))//': harmonics')

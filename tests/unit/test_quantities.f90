@@ -10,7 +10,8 @@ module test_quantities
    use kinds, only: dp, int64
    use problem, only: has_damped_teeth, has_elastic_teeth
    use quantities, only: a_list, a_number, part_errors, quantity_batch_periods, quantity_followed_periods, &
-      least_verdict_with_impacts, needs_impacts, quantity_motion_end, &
+      least_verdict_with_impacts, needs_impacts, quantity_motion_end, quantity_impacts_per_revolution_coast, &
+      quantity_impacts_per_revolution_drive, quantity_reversals_per_revolution, &
       quantity_impacts_per_period_drive, quantity_gear_acceleration_maximum, quantity_gear_acceleration_rms, &
       quantity_impacts_verified, quantity_verdict, quantity_verdict_verified, verification_of, quantities_reported_in, &
       quantity_lyapunov_exponent, quantity_impacts_coast, quantity_drag_bearing, quantity_drag_churning, &
@@ -98,7 +99,9 @@ contains
                   .not. has_damped_teeth(single%resolved%problem)) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of teeth without damping')
          else if (any(i == [quantity_drag_torque, quantity_drag_bearing, quantity_drag_synchroniser, quantity_drag_churning, &
-                            quantity_inertia_ratio, quantity_gear_acceleration_rms, quantity_gear_acceleration_maximum])) then
+                            quantity_inertia_ratio, quantity_gear_acceleration_rms, quantity_gear_acceleration_maximum, &
+                            quantity_impacts_per_revolution_drive, quantity_impacts_per_revolution_coast, &
+                            quantity_reversals_per_revolution])) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of no gear')
          else if (any(i == [quantity_pressure_error, quantity_pressure_resolved, quantity_film_at_pressure_maximum, &
                             quantity_central_film, quantity_film_model])) then

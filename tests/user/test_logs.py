@@ -104,7 +104,7 @@ def lines_of_motion(path: Path) -> list[str | None]:
 
 
 def lines_of_window(told: Mapping[str, Any], given: Mapping[str, Any]) -> list[str | None]:
-    verification = f" ({told['verification']})" if "verification" in told else ""
+    verification = f" ({spoken_verification(told)})" if "verification" in told else ""
     limits = [ENDS[name] for name in ENDS if name in told["model_limit"]]
     relative = f" {RELATIVE}" if "gear" in given else ""
     contradicted = (
@@ -119,7 +119,15 @@ def lines_of_window(told: Mapping[str, Any], given: Mapping[str, Any]) -> list[s
         "  The motion does not repeat within its window of "
         f"{counted(given['spectrum']['periods'], 'period')}: other windows have other numbers; more of "
         "spectrum.periods steadies them."
-        if told["rattle_class"].startswith("irregular") and told["sampling_sufficient"]
+        if told["rattle_class"].startswith("irregular")
+        and told["sampling_sufficient"]
+        and "followed_periods" not in told
+        else None,
+        "  Extremes, rms, impacts and harmonics are those of "
+        f"{counted(told['followed_periods'], 'period')} that the motion was followed, with standard errors "
+        f"by batches of {counted(told['batch_periods'], 'period')}; extremes of an irregular motion grow "
+        "with time."
+        if "followed_periods" in told
         else None,
         f"  warning: {coarse_words(told, given)}" if told["series_coarse"] else None,
         f"  warning: {', and '.join(limits)} (model_limit)" if limits else None,
@@ -134,14 +142,39 @@ def lines_of_window(told: Mapping[str, Any], given: Mapping[str, Any]) -> list[s
     ]
 
 
+def scatter(told: Mapping[str, Any], name: str) -> str:
+    """Two standard errors of a number of an irregular motion."""
+    if "followed_periods" not in told:
+        return ""
+    return f" +- {short(stated_error(told[f'{name}_error'], told[name], 4), 2)}"
+
+
 def verdict_words(told: Mapping[str, Any]) -> str:
-    sure = {True: " (verified)", False: " (uncertain)", None: ""}[told.get("verdict_verified")]
+    sure = {True: " (numerically verified)", False: " (uncertain)", None: ""}[told.get("verdict_verified")]
+    sure += f"; {class_words(told)}"
+    sure += f" ({spoken_verification(told)})" if "verification" in told else ""
+    sure += f", {SOUNDS[told['rattle_class']]}"
     rms = told["acceleration_rms"]
     level = f" ({short(20.0 * np.log10(rms / 1e-6), 4)} dB re 1e-6 m/s2)" if rms > 0.0 else ""
-    force = short(told["film_force_rms"], 4)
-    words = f"{told['verdict']}{sure}: film force rms {force} N, acceleration rms {short(rms, 4)} m/s2{level}"
+    force = short(told["film_force_rms"], 4) + scatter(told, "film_force_rms")
+    shaking = short(rms, 4) + scatter(told, "acceleration_rms")
+    words = f"{told['verdict']}{sure}: film force rms {force} N, acceleration rms {shaking} m/s2{level}"
     assert next(iter(told)) == "verdict_text" and told["verdict_text"] == words
     return f"  {words}"
+
+
+SOUNDS = {
+    "quiet": "a sound of little beside the orders of the force",
+    "creep": "a sound of few harmonics",
+    "idle": "a sound of many harmonics",
+    "irregular": "a sound that does not repeat",
+    "subharmonic": "a sound that repeats after several periods",
+    "irregular_so_far": "a sound that has not repeated so far",
+}
+
+
+def spoken_verification(told: Mapping[str, Any]) -> str:
+    return "numerically verified" if told["verification"] == "verified" else told["verification"]
 
 
 def class_words(told: Mapping[str, Any]) -> str:
@@ -501,9 +534,8 @@ def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, change
             else None,
             f"  {doubts} of {tested} scenes not verified: solved again, tighter, the class is another "
             "or close to a limit (column verified)",
-            f"  {counted(irregular, 'scene')} irregular: other windows than that of "
-            f"{counted(int(rows.input['spectrum']['periods']), 'period')} have other numbers; more of "
-            "spectrum.periods steadies them (rattle_class)"
+            f"  {counted(irregular, 'scene')} irregular: their numbers are those of 100 periods and more, "
+            "with standard errors (rattle_class, acceleration_rms_error)"
             if irregular
             else None,
             f"  {counted(open_ended, 'scene')} irregular so far: without repetition, and no neighbouring "

@@ -232,7 +232,7 @@ def sentences_on_motion(told: Told, given: Mapping[str, Any]) -> tuple[list[str]
     """What the verdict and the notes say with this summary, and what they must not say."""
     limits = given["spectrum"]
     count = told["harmonic_count"]
-    bound = "At least " if told.get("harmonic_count_is_bound") else ""
+    bound = "at least " if told.get("harmonic_count_is_bound") else ""
     lines = f"{bound}{count} {'harmonic' if count == 1 else 'harmonics'} of the acceleration stand above"
     of = "the largest one of the force's own harmonics" if "force_orders" in given["load"] else "the first"
     threshold = f"{100.0 * limits['harmonic_threshold']:g} % of {of}"

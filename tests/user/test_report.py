@@ -128,13 +128,13 @@ def test_a_scene_that_was_not_verified_is_not_called_so(solved):
 
 @pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize(
-    ("flag", "word"), ((".true.", "verified"), (".false.", "uncertain"), (None, "not examined"))
+    ("flag", "word"), ((".true.", "numerically verified"), (".false.", "uncertain"), (None, "not examined"))
 )
 def test_the_verdict_comes_first_with_its_own_verification(motion, flag, word):
     with_summary(motion, verdict="'single-sided impacts'", verdict_verified=flag, verification="'verified'")
     page = read_page(report(motion))
     assert page.verdicts[0].split("\n")[1].startswith(f"single-sided impacts{word}")
-    assert page.badges == [word, "verified"]
+    assert page.badges == [word, "numerically verified"]
 
 
 def test_of_what_is_seen_first_there_are_three_pictures_and_few_numbers(motion):
@@ -154,9 +154,12 @@ def test_the_class_is_the_one_of_the_summary(motion, word):
     with_summary(motion, rattle_class=f"'{word}'", harmonic_count="17", orbit_period="3")
     verdict = read_page(report(motion)).verdicts[0]
     assert f"Class by its spectrum: {SPOKEN.get(word, word)}" in verdict
-    named = {"quiet": "Quiet:", "creep": "Creep rattle:", "idle": "Idle rattle:"}
-    named |= {"irregular": "Irregular rattle:", "subharmonic": "Subharmonic rattle:"}
-    named |= {"irregular_so_far": "Irregular so far:"}
+    named = {"quiet": "quiet by its sound", "creep": "creep rattle by its sound"}
+    named |= {"idle": "idle rattle by its sound", "irregular": "irregular rattle by its sound"}
+    named |= {
+        "subharmonic": "subharmonic rattle by its sound",
+        "irregular_so_far": "irregular so far by its sound",
+    }
     assert [known for known, words in named.items() if words in verdict] == [word]
     assert ("17 harmonics" in verdict) == (word in ("creep", "idle"))
     assert ("after 3 periods" in verdict) == (word == "subharmonic")
@@ -182,7 +185,7 @@ def test_regime_and_law_are_told_as_the_summary_has_them(motion, regime, contrad
         ("sampling_sufficient", ".false.", "too few samples"),
         ("orbit_stability", "'unstable'", "unstable"),
         ("status", "'film_lost'", "did not reach its end"),
-        ("harmonic_count_is_bound", ".true.", "At least"),
+        ("harmonic_count_is_bound", ".true.", "at least"),
         ("stiffness_matters", ".true.", "rigid, which is no fair assumption: steel ones would deflect by"),
         ("stiffness_matters", ".false.", "rigid, which is a fair assumption: steel ones would deflect by"),
         ("verdict", "'double-sided impacts'", "hits both flanks"),

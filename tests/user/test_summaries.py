@@ -59,7 +59,7 @@ SHOWN = {
     "irregular fraction": "1.5e-12",
     "reversals a period": "4.5",
     "rattle class": "idle",
-    "verification": "verified",
+    "verification": "numerically verified",
     "error of the film": "5.0e-05",
     "motion": "stable",
     "film regime": "piezo-viscous",

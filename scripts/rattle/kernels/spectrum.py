@@ -75,6 +75,7 @@ def classify(
     return {
         "rattle_class": codes.CLASSES[counts[0]],
         "harmonic_count": int(counts[1]),
+        "spectral_reach": float(ratios[3]),
         "harmonic_distortion": float(ratios[0]) if moving else float("nan"),
         "irregular_fraction": float(ratios[1]) if moving else float("nan"),
         "reversals_per_period": float(ratios[2]),

@@ -36,31 +36,29 @@ ERRORS = {
     "acceleration_minimum": "acceleration_minimum_error",
     "acceleration_maximum": "acceleration_maximum_error",
 }
-# What is said of each class. Words in braces are numbers of summary or input.
+# What is said of each class, behind what the tooth does: how its acceleration sounds, whatever makes it.
+# Words in braces are numbers of summary or input.
 CLASSES = {
-    "quiet": "Quiet: the tooth follows the force smoothly. What its acceleration adds to harmonics of the "
-    "force is small: "
+    "quiet": "quiet by its sound: what its acceleration adds to harmonics of the force is small, "
     "a harmonic distortion of {harmonic_distortion}, below the limit of {quiet_limit}.",
-    "creep": "Creep rattle: the tooth rolls through the oil film rather than knocks. {lines} of the "
-    "acceleration "
-    "stand above {threshold}, fewer than the {idle_harmonics} from which on it is idle rattle.",
-    "idle": "Idle rattle: the tooth knocks. {lines} of the acceleration stand above {threshold}; "
-    "{idle_harmonics} or more make it idle "
-    "rattle: short impacts, whose sound reaches far up in frequency.",
-    "irregular": "Irregular rattle: no period of the motion is like the one before. A share of "
+    "creep": "creep rattle by its sound: {lines} of the acceleration stand above {threshold}, fewer than "
+    "the {idle_harmonics} from which on it is idle rattle.",
+    "idle": "idle rattle by its sound, which reaches far up in frequency: {lines} of the acceleration stand "
+    "above {threshold}; {idle_harmonics} or more make it idle rattle.",
+    "irregular": "irregular rattle by its sound: no period of the motion is like the one before. A share of "
     "{irregular_fraction} of the "
     "power of the acceleration lies off the harmonics of the force; {irregular_limit} is the limit.",
-    "irregular_so_far": "Irregular so far: no period of the motion is like the one before, but it may "
-    "settle. A share of {irregular_fraction} of the power of the acceleration lies off the harmonics of "
-    "the force.",
-    "subharmonic": "Subharmonic rattle: the motion repeats, but only after {orbit_period} periods of the "
-    "force.",
+    "irregular_so_far": "irregular so far by its sound: no period of the motion is like the one before, but "
+    "it may settle. A share of {irregular_fraction} of the power of the acceleration lies off the harmonics "
+    "of the force.",
+    "subharmonic": "subharmonic rattle by its sound: the motion repeats, but only after {orbit_period} "
+    "periods of the force.",
 }
 # The same words without numbers, for several motions.
 CLASS_MEANINGS = {
-    "quiet": "The tooth follows the force smoothly.",
-    "creep": "The tooth rolls through the oil film; few harmonics of the acceleration stand out.",
-    "idle": "The tooth knocks: short impacts, many harmonics, a sound that reaches far up in frequency.",
+    "quiet": "The acceleration has little beside the orders of the force.",
+    "creep": "Few harmonics of the acceleration stand out.",
+    "idle": "Many harmonics of the acceleration stand out: a sound that reaches far up in frequency.",
     "irregular": "No period of the motion is like the one before, and neighbouring motions part for good.",
     "irregular so far": "The motion did not repeat as long as it was followed, and it may settle.",
     "subharmonic": "The motion repeats only after several periods of the force.",
@@ -111,12 +109,14 @@ STIFFNESS = {
 }
 # What the verdict on separation and impacts says.
 VERDICTS = {
-    "no separation": "The tooth stays on its drive flank: no separation, and no impact.",
-    "separation": "The tooth leaves its drive flank, without an impact.",
-    "single-sided impacts": "The tooth hits one flank (single-sided impacts).",
-    "double-sided impacts": "The tooth hits both flanks of its gap (double-sided impacts).",
+    "no separation": "The tooth stays on its drive flank: no separation, and no impact",
+    "separation": "The tooth leaves its drive flank, without an impact",
+    "single-sided impacts": "The tooth hits one flank (single-sided impacts)",
+    "double-sided impacts": "The tooth hits both flanks of its gap (double-sided impacts)",
 }
-VERIFIED_VERDICT = {True: ("good", "verified"), False: ("doubt", "uncertain"), None: ("open", "not examined")}
+# The verification is of the numbers, not of the model: that stands with the word wherever it stands alone.
+VERIFIED = "numerically verified"
+VERIFIED_VERDICT = {True: ("good", VERIFIED), False: ("doubt", "uncertain"), None: ("open", "not examined")}
 # The numbers that everybody should see, in their order, and what they are.
 NUMBERS = {
     "film_force_rms": "Film force on the bearings, rms about its mean",
@@ -175,7 +175,7 @@ def badge_of(summary: Summary) -> tuple[str, str]:
     verification = str(summary.get("verification", "")).strip()
     if not verification:
         return "open", "not examined"
-    return ("good" if verification == "verified" else "doubt"), verification
+    return ("good", VERIFIED) if verification == "verified" else ("doubt", verification)
 
 
 def verdict_sentences(result: Result, summary: Summary) -> Iterator[str]:
@@ -183,14 +183,15 @@ def verdict_sentences(result: Result, summary: Summary) -> Iterator[str]:
     if str(summary["status"]).strip() not in _ended_well():
         yield f"The run did not reach its end ({summary['status']}). {summary.get('status_text', '')}".strip()
     verdict = VERDICTS.get(str(summary.get("verdict", "")).strip())
-    if verdict:
-        yield verdict
-    elif summary.get("double_sided"):
+    if not verdict and summary.get("double_sided"):
         # Of a version that knew no impacts.
-        yield "The coast film carries more than the drive film at times: the tooth crosses its gap."
+        verdict = "The coast film carries more than the drive film at times: the tooth crosses its gap"
     word = str(summary.get("rattle_class", "")).strip()
-    if word in CLASSES:
-        yield CLASSES[word].format_map(_words(result, summary))
+    sound = CLASSES[word].format_map(_words(result, summary)) if word in CLASSES else ""
+    if verdict:
+        yield f"{verdict}; {sound}" if sound else f"{verdict}."
+    elif sound:
+        yield sound[0].upper() + sound[1:]
     if "verification" in summary:
         yield str(summary.get("verification_text", "")).strip()
     elif word:
@@ -397,7 +398,6 @@ def _words(result: Result, summary: Summary) -> dict[str, str]:
     }
     for name in ("harmonic_distortion", "irregular_fraction", "orbit_period"):
         words[name] = f"{summary[name]:.4g}" if name in summary else "unknown"
-    lines = f"{bound}{count} {noun}"
     largest = "the largest one of the force's own harmonics" if forced(result) else "the first"
     words["threshold"] = f"{100.0 * limits.get('harmonic_threshold', 0.0):g} % of {largest}"
-    return words | {"lines": lines[0].upper() + lines[1:]}
+    return words | {"lines": f"{bound}{count} {noun}"}
