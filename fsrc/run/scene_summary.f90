@@ -124,7 +124,7 @@ contains
       integer, intent(in) :: part
       type(quantity_t) :: quantity
       character(:), allocatable :: name
-      real(dp) :: value
+      real(dp) :: value, number
       integer :: i
 
       do i = 1, size(quantity_table)
@@ -149,7 +149,11 @@ contains
          case (a_code)
             call summary%add(name, quantity_word(i, nint(value)))
          case default
-            if (part == part_errors) value = stated_error(value, 0.5_dp*spacing(number_of_error(name, judged)))
+            if (part == part_errors) then
+               ! Of a number that is 0 for certain there is no rounding.
+               number = number_of_error(name, judged)
+               if (max(value, abs(number)) > 0.0_dp) value = stated_error(value, 0.5_dp*spacing(number))
+            end if
             call summary%add(name, value)
          end select
       end do

@@ -52,9 +52,9 @@ module quantities
          quantity_verdict_verified, quantity_impacts_verified, quantity_film_error, &
          quantity_film_minimum_error, quantity_film_maximum_error, quantity_acceleration_error, &
          quantity_acceleration_minimum_error, quantity_acceleration_maximum_error, quantity_acceleration_rms_error, &
-         quantity_film_force_rms_error, quantity_dissipated_power_error, quantity_impacts_per_period_error_drive, &
-         quantity_impacts_per_period_error_coast, quantity_impact_impulse_mean_error_drive, &
-         quantity_impact_impulse_mean_error_coast, quantity_severity_error, quantity_harmonic_errors, quantity_orbit_period, &
+         quantity_film_force_rms_error, quantity_dissipated_power_error, quantity_impacts_per_period_drive_error, &
+         quantity_impacts_per_period_coast_error, quantity_impact_impulse_mean_drive_error, &
+         quantity_impact_impulse_mean_coast_error, quantity_severity_error, quantity_harmonic_errors, quantity_orbit_period, &
          quantity_orbit_stability, quantity_floquet_multipliers, &
          quantity_floquet_modulus, quantity_pressure_maximum, quantity_pressure_error, quantity_pressure_resolved, &
          quantity_film_at_pressure_maximum, quantity_central_film, quantity_alpha_p_maximum, quantity_deflection, &
@@ -84,8 +84,8 @@ module quantities
       quantity_impact_loads_drive, quantity_impact_loads_coast, &
       quantity_impact_velocities_drive, quantity_impact_velocities_coast, &
       quantity_impact_impulses_drive, quantity_impact_impulses_coast, &
-      quantity_impacts_per_period_error_drive, quantity_impacts_per_period_error_coast, &
-      quantity_impact_impulse_mean_error_drive, quantity_impact_impulse_mean_error_coast, &
+      quantity_impacts_per_period_drive_error, quantity_impacts_per_period_coast_error, &
+      quantity_impact_impulse_mean_drive_error, quantity_impact_impulse_mean_coast_error, &
       quantity_impacts_per_second_drive, quantity_impacts_per_second_coast, &
       quantity_impacts_per_revolution_drive, quantity_impacts_per_revolution_coast], [2, 17])
 
@@ -367,13 +367,13 @@ module quantities
          'summary campaign', 'Error of film_force_rms.'), &
       quantity_t(quantity_dissipated_power_error, 'dissipated_power_error', 'W', a_number, part_errors, needs_verification, &
          'summary campaign', 'Error of dissipated_power.'), &
-      quantity_t(quantity_impacts_per_period_error_drive, 'impacts_per_period_error_drive', '-', a_number, part_errors, &
+      quantity_t(quantity_impacts_per_period_drive_error, 'impacts_per_period_drive_error', '-', a_number, part_errors, &
          needs_verified_impacts, 'summary campaign', 'Error of impacts_per_period_drive.'), &
-      quantity_t(quantity_impacts_per_period_error_coast, 'impacts_per_period_error_coast', '-', a_number, part_errors, &
+      quantity_t(quantity_impacts_per_period_coast_error, 'impacts_per_period_coast_error', '-', a_number, part_errors, &
          needs_verified_impacts, 'summary campaign', 'Error of impacts_per_period_coast.'), &
-      quantity_t(quantity_impact_impulse_mean_error_drive, 'impact_impulse_mean_error_drive', 'N s', a_number, part_errors, &
+      quantity_t(quantity_impact_impulse_mean_drive_error, 'impact_impulse_mean_drive_error', 'N s', a_number, part_errors, &
          needs_verified_impacts, 'summary campaign', 'Error of impact_impulse_mean_drive.'), &
-      quantity_t(quantity_impact_impulse_mean_error_coast, 'impact_impulse_mean_error_coast', 'N s', a_number, part_errors, &
+      quantity_t(quantity_impact_impulse_mean_coast_error, 'impact_impulse_mean_coast_error', 'N s', a_number, part_errors, &
          needs_verified_impacts, 'summary campaign', 'Error of impact_impulse_mean_coast.'), &
       quantity_t(quantity_severity_error, 'severity_error', '-', a_number, part_errors, needs_verification, 'summary', &
          'Largest relative error of acceleration_rms, acceleration_kurtosis, film_force_rms and dissipated_energy.'), &

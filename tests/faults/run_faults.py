@@ -381,7 +381,9 @@ class Study:
             )
             code = ended.returncode
             faults = [] if code in (0, 2, 3) else [f"exit code {code}: {ended.stderr[:200]}"]
-            if code == 3 and "memory" not in ended.stderr and "threads" not in ended.stderr:
+            if code == 3 and not any(
+                word in ended.stderr for word in ("memory", "threads", "Thread creation")
+            ):
                 faults.append(f"it says {ended.stderr[:200]}")
             self.score("little memory", task, faults + self.after(task, code), f"{limit} bytes")
 

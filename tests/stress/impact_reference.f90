@@ -84,8 +84,9 @@ contains
       real(dp), intent(in) :: margin
       logical :: possible(size(possible_classes))
       real(dp) :: a(integrated_harmonics), forced, largest, harmonic, between, rest, fraction(2), distortion(2)
+      real(dp) :: about(integrated_harmonics)
       logical :: is_forced(integrated_harmonics)
-      integer :: most, fewest
+      integer :: most, fewest, n, multiple
 
       possible = .true.
       a = window%amplitudes(window%divisions::window%divisions)
@@ -114,8 +115,15 @@ contains
       possible(1) = distortion(1) < choice%quiet_limit*(1.0_dp + margin)
       possible(2:3) = .false.
       if (distortion(2) < choice%quiet_limit*(1.0_dp - margin)) return
-      fewest = 1 + count(.not. is_forced .and. a > choice%harmonic_threshold*largest*(1.0_dp + margin))
-      most = 1 + count(.not. is_forced .and. a > choice%harmonic_threshold*largest*(1.0_dp - margin)) + &
+      ! What is not forced belongs to the nearest multiple of the dominant order.
+      about = 0.0_dp
+      do n = 1, size(a)
+         multiple = max(1, floor(real(n, dp)/real(choice%dominant_order, dp) + 0.5_dp))
+         if (.not. is_forced(n)) about(multiple) = about(multiple) + a(n)**2
+      end do
+      about(1) = 0.0_dp
+      fewest = 1 + count(sqrt(about) > choice%harmonic_threshold*largest*(1.0_dp + margin))
+      most = 1 + count(sqrt(about) > choice%harmonic_threshold*largest*(1.0_dp - margin)) + &
              int(min(rest/(choice%harmonic_threshold*largest)**2, 1.0e6_dp))
       possible(3) = most >= choice%idle_harmonics
       possible(2) = fewest < choice%idle_harmonics

@@ -9,8 +9,8 @@ module judged_scenes
    use random_walk, only: next_uniform, random_state_t
    use random_scenes, only: choose_law, draw, draw_scene, drawn_scene_t, laws
    use prepared_scene, only: resolve
-   use scene_types, only: dominant_order, forced_orders, iteration_newton, iteration_successive, law_piezo_viscous, method_newmark, method_taylor, &
-                          model_reynolds, &
+   use scene_types, only: dominant_order, forced_orders, iteration_newton, iteration_successive, law_piezo_viscous, &
+                          method_newmark, method_taylor, model_reynolds, &
                           predictor_extrapolated, predictor_previous, scene_t, until_periods, until_steady
    implicit none(type, external)
    private

@@ -170,6 +170,11 @@ def compared(alone: dict, other: dict, which: str, where: str) -> Iterator[Diffe
         one, two = alone[name], other[name]
         if share > 0.0 and name in ("periods_solved", "evaluations", "steps", "irregular_fraction"):
             continue
+        if name.endswith("_error") and which == ROW:
+            # Differences of two solutions, in which their last digits count: of one size.
+            if share == 0.0 and max(one, two) > max(10.0 * min(one, two), 1e-12):
+                yield Difference(name, which, where, one, two)
+            continue
         scale = max(abs(one), alone["harmonic_1"] if name.startswith("harmonic_") else 0.0)
         if abs(one - two) > share * scale or np.isnan(one) != np.isnan(two):
             yield Difference(name, which, where, one, two)

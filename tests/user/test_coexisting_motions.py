@@ -63,7 +63,7 @@ def test_both_motions_are_told(two_motions: Path) -> None:
     assert frame.film_force_rms[1] > 1.2 * frame.film_force_rms[0]
     assert (frame.floquet_modulus < 1.0).all()
     log = (results / "two_motions.log").read_text()
-    assert re.search(r": idle \((verified|uncertain)\), from rest\n", log)
+    assert re.search(r": idle \((numerically verified|uncertain)\), from rest\n", log)
     sentence = re.search(
         r"2 motions: idle 27\.\d+ m/s2 \(from rest, (\d+) of 29 starts\), "
         r"subharmonic 35\.\d+ m/s2 \((\d+) of 29\)",

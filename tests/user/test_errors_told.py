@@ -76,7 +76,8 @@ def test_errors_in_summaries(solved):
     for path in solved:
         told, text = rattle.read_summary(path), path.read_text()
         names = [name for name in told if name.endswith("_error")]
-        assert len(names) == 7
+        flanks = sum(f"impacts_per_period_{flank}" in told for flank in ("drive", "coast"))
+        assert len(names) == 10 + 2 * flanks
         for name in names:
             shown = re.search(rf"^   {name} = (\S+)$", text, re.MULTILINE)[1]
             number = told.get(name.removesuffix("_error"), 1.0)

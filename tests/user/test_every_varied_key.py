@@ -33,6 +33,7 @@ REST = """&load force_scale = 0.9, force_mean = 0.1 /
 """
 GEAR = """&gear teeth_1 = 19, teeth_2 = 37, normal_module = 2.2e-3, pressure_angle_deg = 20.0
    helix_angle_deg = 28.0, face_width = 0.016, loose_inertia = 8.9e-4, backlash = 9e-5, tooth_stiffness = 14e9
+   tooth_damping_ratio = 0.03
 """
 COMPUTED = """   bearing_mean_diameter = 0.038, immersion_depth = 0.03, own_shaft_ratio = 0.4
    drag_scale = 0.8, synchroniser_cones = 2, synchroniser_diameter = 0.062, synchroniser_width = 0.008
@@ -47,7 +48,8 @@ FORCE = (
     "&load mass = 3.0, steady_force = 150.0, force_amplitude = 120.0, force_scale = 0.9, force_mean = 10.0,"
 )
 BASES = {
-    "two soft flanks": "&contact radius = 0.0127, length = 0.01, backlash = 8e-6, stiffness = 1e9 /\n"
+    "two soft flanks": "&contact radius = 0.0127, length = 0.01, backlash = 8e-6, stiffness = 1e9\n"
+    " damping_ratio = 0.1 /\n"
     "&kinematics entrainment_speed = 1.905 /\n"
     + FORCE
     + " frequency = 600.0 /\n"

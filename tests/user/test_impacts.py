@@ -178,8 +178,8 @@ def test_a_motion_that_is_irregular_now_and_then_is_uncertain(run, scene_text, t
     summary = summary_of(tmp_path / "results" / "scene.summary.nml")
     assert summary["rattle_class"] == "irregular"
     assert summary["verification"] == "uncertain"
-    # The tighter solution holds an impact or none, as chance has it.
-    assert re.search("too few impacts|the class is quiet", summary["verification_text"])
+    # It flies, now and then beyond what the film law means.
+    assert re.search("too few impacts|beyond a tenth of the radius", summary["verification_text"])
 
 
 def test_a_row_counts_the_power_beyond_its_harmonics(run, scene_text, tmp_path: Path) -> None:

@@ -24,8 +24,8 @@ NUMBERS = {
     "acceleration_rms": "acceleration_rms_error",
     "film_force_rms": "film_force_rms_error",
     "dissipated_power": "dissipated_power_error",
-    "impacts_per_period_drive": "impacts_per_period_error_drive",
-    "impact_impulse_mean_drive": "impact_impulse_mean_error_drive",
+    "impacts_per_period_drive": "impacts_per_period_drive_error",
+    "impact_impulse_mean_drive": "impact_impulse_mean_drive_error",
 }
 EXTREMES = ("film_minimum", "film_maximum", "acceleration_minimum", "acceleration_maximum")
 

@@ -52,6 +52,7 @@ KEYS = {
     "contact.radius": ("0.010", "0.015", "film_minimum"),
     "contact.radius_1": ("0.020", "0.030", "film_minimum"),
     "contact.radius_2": ("0.020", "0.030", "film_minimum"),
+    "contact.damping_ratio": ("0.02", "0.2", "film_minimum"),
     "contact.length": ("0.009", "0.012", "film_minimum"),
     "contact.young_modulus": ("1.0e11", "3.0e11", "deflection"),
     "contact.poisson_ratio": ("0.1", "0.4", "deflection"),
@@ -84,6 +85,7 @@ KEYS = {
 # What the base of a key has beside that of all others. None: the key is left out.
 FROM_START = {"film": {"initial_film": "3.0e-6"}, "solver": {"periods": "4"}}  # all periods are in the window
 BASES = {
+    "contact.damping_ratio": {"contact": {"stiffness": "1.0e9"}},
     "contact.radius_1": {"contact": {"radius": None, "radius_1": "0.025", "radius_2": "0.026"}},
     "contact.backlash": {"contact": {"backlash": "5.0e-6"}, "load": {"steady_force": "0.0"}},
     "contact.stiffness": {"contact": {"stiffness": "1.0e9"}},
