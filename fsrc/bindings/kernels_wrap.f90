@@ -23,7 +23,7 @@ subroutine wrap_classify(n, acceleration, periods, limits, idle_harmonics, orbit
    ratios, counts)
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use rattle_class, only: classify, note_orbit, rattle_verdict_t
-   use scene_types, only: dominant_order, forced_orders, spectrum_choice_t
+   use scene_types, only: note_orders, spectrum_choice_t
    implicit none
    integer(c_int), intent(in) :: n
    real(c_double), intent(in) :: acceleration(n)
@@ -46,8 +46,7 @@ subroutine wrap_classify(n, acceleration, periods, limits, idle_harmonics, orbit
    choice%quiet_limit = limits(2)
    choice%irregular_limit = limits(3)
    choice%idle_harmonics = idle_harmonics
-   choice%forced = forced_orders(orders, amplitudes)
-   choice%dominant_order = dominant_order(orders, amplitudes)
+   call note_orders(orders, amplitudes, choice)
    call classify(acceleration, choice, limits(4), verdict)
    call note_orbit(verdict, orbit)
    harmonics = verdict%spectrum%harmonics

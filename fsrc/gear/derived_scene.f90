@@ -9,7 +9,7 @@ module derived_scene
    use loose_gear_drag, only: drag_of_gear, reference_diameter
    use oil_data, only: oil_pressure_viscosity, oil_viscosity
    use scene_rules, only: broken_elastic_rules, rule_t, sentence_length
-   use scene_types, only: drag_computed, drag_given, drag_tabulated, dominant_order, forced_orders, highest_order, scene_t, shaft_t
+   use scene_types, only: drag_computed, drag_given, drag_tabulated, highest_order, note_orders, scene_t, shaft_t
    use table_values, only: excitation_at, is_within
    implicit none(type, external)
    private
@@ -66,8 +66,7 @@ contains
       scene%excitation%force_phases = scene%shaft%phases
       ! The derivative of a cosine leads it by a quarter of its period.
       if (allocated(scene%shaft%speed_amplitudes)) scene%excitation%force_phases = scene%shaft%phases + 0.5_dp*pi
-      scene%spectrum%forced = forced_orders(scene%excitation%force_orders, scene%excitation%force_amplitudes)
-      scene%spectrum%dominant_order = dominant_order(scene%excitation%force_orders, scene%excitation%force_amplitudes)
+      call note_orders(scene%excitation%force_orders, scene%excitation%force_amplitudes, scene%spectrum)
    end subroutine derive_force
 
    !> Amplitudes of the angular acceleration of a shaft, order by order [rad/s2].

@@ -85,6 +85,7 @@ contains
          inverse(i, i) = 1.0_dp
       end do
       matrix = inverse + block%retardation(lane)/block%step(lane)*slope
+      ! The eigenvalues of the slopes have positive real parts: it is solved.
       call solve_linear(matrix, inverse, solved)
       associate (share => block%damped_share(lane))
          trial%retards = inverse(row_of, :)

@@ -2,7 +2,7 @@
 module scene_report
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use coexisting_motions, only: motions_sentence, own_start_words
-   use verification, only: spoken_verification, verification_sentence
+   use verification, only: verified_in_brackets, verification_sentence
    use film_law, only: with_exact_film
    use film_state, only: load_t
    use flank_contact, only: contact_words, load_at_rest
@@ -362,7 +362,7 @@ contains
                           at_least(spectrum%distortion_is_bound)//short_text(spectrum%harmonic_distortion, 3)//', '// &
                           short_text(rattle%reversals_per_period, 3)//' reversals a period: '// &
                           spaced(quantity_word(quantity_rattle_class, rattle%class))// &
-                          verified_in_brackets())
+                          certainty())
             if (judged%statistics%periods > 0) then
                call log%line('  Extremes, rms, impacts and harmonics are those of '// &
                              counted(judged%statistics%periods, 'period')//' that the motion was followed, with standard '// &
@@ -409,15 +409,15 @@ contains
          if (is_bound) words = 'at least '
       end function at_least
 
-      !> Whether the class is verified, behind it.
-      pure function verified_in_brackets() result(words)
+      !> Whether the class is verified, and of which motion it is, behind it.
+      pure function certainty() result(words)
          character(:), allocatable :: words
 
          words = ''
-         if (judged%verification%exists) words = ' ('//spoken_verification(judged%verification%verified)//')'
+         if (judged%verification%exists) words = verified_in_brackets(judged%verification%verified)
          if (.not. allocated(judged%coexisting%motions)) return
          if (size(judged%coexisting%motions) > 1) words = words//', '//own_start_words(judged%coexisting)
-      end function verified_in_brackets
+      end function certainty
 
    end subroutine report_window
 
@@ -430,9 +430,9 @@ contains
 
       sentence = quantity_word(quantity_verdict, nint(quantity_value(quantity_verdict, judged)))
       verified = quantity_value(quantity_verdict_verified, judged)
-      if (.not. ieee_is_nan(verified)) sentence = sentence//in_brackets(verified > 0.0_dp)
+      if (.not. ieee_is_nan(verified)) sentence = sentence//verified_in_brackets(verified > 0.0_dp)
       sentence = sentence//'; '//spaced(quantity_word(quantity_rattle_class, judged%rattle%class))
-      if (judged%verification%exists) sentence = sentence//in_brackets(judged%verification%verified)
+      if (judged%verification%exists) sentence = sentence//verified_in_brackets(judged%verification%verified)
       sentence = sentence//', '//trim(sounds(judged%rattle%class))
       associate (severity => judged%severity, errors => judged%statistics%severity)
          sentence = sentence//': film force rms '//short_text(severity%film_force_rms, 4)// &
@@ -443,14 +443,6 @@ contains
          short_text(20.0_dp*log10(judged%severity%acceleration_rms/level_reference), 4)//' dB re 1e-6 m/s2)'
 
    contains
-
-      !> Whether something is verified, which is of the numbers, not of the model.
-      pure function in_brackets(verified) result(words)
-         logical, intent(in) :: verified
-         character(:), allocatable :: words
-
-         words = ' ('//spoken_verification(verified)//')'
-      end function in_brackets
 
       !> Two standard errors of a number of an irregular motion; empty for others.
       pure function scatter(standard_error, number) result(words)

@@ -12,7 +12,7 @@ module scene_reader
    use odd_numbers, only: mistaken_numbers, odd_numbers_of_input, odd_swings
    use scene_checker, only: check_together
    use scene_input, only: new_scene_input, scene_input_t
-   use scene_types, only: dominant_order, forced_orders, model_resolved, output_t, scene_t, task_campaign, task_motion, &
+   use scene_types, only: model_resolved, note_orders, output_t, scene_t, task_campaign, task_motion, &
       task_sweep, task_threshold
    use signal_reader, only: take_signal
    use table_reader, only: take_drag_table, take_excitation_table
@@ -284,8 +284,7 @@ contains
             excitation%force_amplitudes = input%numbers('load.force_amplitudes')
             excitation%force_phases = 0.0_dp*excitation%force_amplitudes
             if (input%is_given('load.force_phases')) excitation%force_phases = input%numbers('load.force_phases')
-            spectrum%forced = forced_orders(excitation%force_orders, excitation%force_amplitudes)
-            spectrum%dominant_order = dominant_order(excitation%force_orders, excitation%force_amplitudes)
+            call note_orders(excitation%force_orders, excitation%force_amplitudes, spectrum)
          end if
          if (allocated(scene%shaft%table)) then
             scene%shaft%orders = scene%shaft%table%orders

@@ -476,7 +476,7 @@ module scene_types
       end function fma
    end interface
 
-   public :: dominant_order, forced_orders, is_shared_task, set_number
+   public :: is_shared_task, note_orders, set_number
 
 contains
 
@@ -660,27 +660,19 @@ contains
       end select
    end subroutine set_number_of_gear
 
-   !> At which orders harmonics are forced: those of at least a hundredth of the largest amplitude of the force.
-   pure function forced_orders(orders, amplitudes) result(forced)
+   !> Note at which orders harmonics are forced, those of at least a hundredth of the largest amplitude of the force, and which is
+   !> dominant, that of the largest, the lowest of equal ones.
+   pure subroutine note_orders(orders, amplitudes, choice)
       integer, intent(in) :: orders(:)
       !> Of each order [N]
       real(dp), intent(in) :: amplitudes(:)
-      logical :: forced(highest_order)
-      real(dp), parameter :: least_share = 0.01_dp
+      type(spectrum_choice_t), intent(inout) :: choice
+      real(dp), parameter :: least_share = 0.01_dp, equal_share = 1.0_dp - 1.0e-9_dp
 
-      forced = .false.
-      forced(pack(orders, orders <= highest_order .and. amplitudes >= least_share*maxval(amplitudes))) = .true.
-   end function forced_orders
-
-   !> Order with the largest force, the lowest of equal ones.
-   pure integer function dominant_order(orders, amplitudes)
-      integer, intent(in) :: orders(:)
-      !> Of each order [N]
-      real(dp), intent(in) :: amplitudes(:)
-
-      ! Equal but for rounding.
-      dominant_order = minval(orders, mask=amplitudes >= (1.0_dp - 1.0e-9_dp)*maxval(amplitudes))
-   end function dominant_order
+      choice%forced = .false.
+      choice%forced(pack(orders, orders <= highest_order .and. amplitudes >= least_share*maxval(amplitudes))) = .true.
+      choice%dominant_order = minval(orders, mask=amplitudes >= equal_share*maxval(amplitudes))
+   end subroutine note_orders
 
    !> How the drag torque of a pair is known.
    pure integer function drag_known_by(self)

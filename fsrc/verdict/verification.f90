@@ -67,7 +67,7 @@ module verification
    real(dp), parameter :: least_reversals = 8.0_dp
 
    public :: compare_windows, irregular_verification, note_severity_errors, note_impact_errors, no_verification, &
-             spoken_verification, verification_word, verification_sentence, &
+             verified_in_brackets, verification_word, verification_sentence, &
              doubt_of_windows, doubt_of_closing, doubt_of_flight, doubt_of_impacts, &
              doubt_of_return, films_of_ends
 
@@ -441,14 +441,14 @@ contains
       if (verification%verified) word = 'verified'
    end function verification_word
 
-   !> The same for a reader: it is the numbers that are verified, not the model.
-   pure function spoken_verification(verified) result(words)
+   !> The same behind a word for a reader: it is the numbers that are verified, not the model.
+   pure function verified_in_brackets(verified) result(words)
       logical, intent(in) :: verified
       character(:), allocatable :: words
 
-      words = 'uncertain'
-      if (verified) words = 'numerically verified'
-   end function spoken_verification
+      words = ' (uncertain)'
+      if (verified) words = ' (numerically verified)'
+   end function verified_in_brackets
 
    !> Why the class is not verified, or that it is.
    pure function verification_sentence(verification) result(sentence)

@@ -9,9 +9,9 @@ module judged_scenes
    use random_walk, only: next_uniform, random_state_t
    use random_scenes, only: choose_law, draw, draw_scene, drawn_scene_t, laws
    use prepared_scene, only: resolve
-   use scene_types, only: dominant_order, forced_orders, iteration_newton, iteration_successive, law_piezo_viscous, &
-                          method_newmark, method_taylor, model_reynolds, &
-                          predictor_extrapolated, predictor_previous, scene_t, until_periods, until_steady
+   use scene_types, only: iteration_newton, iteration_successive, law_piezo_viscous, method_newmark, method_taylor, &
+                          model_reynolds, note_orders, predictor_extrapolated, predictor_previous, scene_t, until_periods, &
+                          until_steady
    implicit none(type, external)
    private
 
@@ -253,8 +253,7 @@ contains
          excitation%force_orders = pack([(n, n=1, most_orders)], is_there)
          excitation%force_amplitudes = pack(weights, is_there)*(excitation%force_amplitude/sum(weights))
          excitation%force_phases = pack(phases, is_there)
-         scene%spectrum%forced = forced_orders(excitation%force_orders, excitation%force_amplitudes)
-         scene%spectrum%dominant_order = dominant_order(excitation%force_orders, excitation%force_amplitudes)
+         call note_orders(excitation%force_orders, excitation%force_amplitudes, scene%spectrum)
       end associate
    end subroutine draw_orders
 
