@@ -598,7 +598,10 @@ def sentences_on_campaign(
         found.append("The class was not recorded.")
     if "verified" in columns:
         verified, lacking = (int((columns["verified"] == flag).sum()) for flag in (1.0, 0.0))
-        found.append(f"The class is verified in {verified} scenes: solved again, tighter, it is the same.")
+        found.append(
+            f"The class is verified in {verified} scenes: solved again, tighter, it is the same, "
+            "or both halves of an irregular motion agree."
+        )
         found.append(f"{lacking} of {verified + lacking} scenes are not verified.")
     if "law_contradicted" in columns:
         count = int((columns["law_contradicted"] == 1.0).sum())

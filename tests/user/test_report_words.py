@@ -52,7 +52,8 @@ def test_every_sentence_on_a_campaign_counts_its_rows(counted) -> None:
     assert list(campaign_report.sentences_on(counted)) == [
         "12 of 16 scenes are solved; 2 of them failed.",
         "Class of the motion: idle in 6 (50.0 %), creep in 3 (25.0 %), quiet in 1 (8.3 %).",
-        "The class is verified in 6 scenes: solved again, tighter, it is the same. "
+        "The class is verified in 6 scenes: solved again, tighter, it is the same, "
+        "or both halves of an irregular motion agree. "
         "3 of 9 scenes are not verified.",
         "In 7 scenes the film law is not the one of the regime that the motion reaches.",
         "In 5 scenes the film leaves what the model can mean: below 1 nm, or beyond a tenth of the radius.",

@@ -131,7 +131,8 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
     if "verified" in campaign:
         verified, lacking = verifications(campaign)
         yield (
-            f"The class is verified in {verified} scenes: solved again, tighter, it is the same. "
+            f"The class is verified in {verified} scenes: solved again, tighter, it is the same, "
+            "or both halves of an irregular motion agree. "
             f"{lacking} of {verified + lacking} scenes are not verified."
         )
     else:
