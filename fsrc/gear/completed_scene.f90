@@ -231,7 +231,7 @@ contains
          if (excitation%steady_force >= excitation%force_scale*sum(excitation%force_amplitudes)) scene%warnings = [scene%warnings, &
             word_t('warning: the drag of '//short_text(excitation%steady_force, 4)//' N is larger than the inertia force of '// &
                    short_text(excitation%force_scale*sum(excitation%force_amplitudes), 4)// &
-                   ' N at most: nothing drives the teeth apart')]
+                   ' N at most: the tooth stays on its flank, or on the film there')]
          if (allocated(scene%shaft%speed_amplitudes) .or. allocated(scene%shaft%table)) &
             call tell(scene, 'shaft.accelerations', accelerations_of(scene%shaft), 'rad/s2')
          if (allocated(scene%shaft%table)) call tell(scene, 'shaft.orders', scene%shaft%orders, '')

@@ -10,8 +10,10 @@ module window_impacts
    implicit none(type, external)
    private
 
-   !> Verdicts.
-   integer, parameter, public :: no_separation = 0, separation_alone = 1, single_sided_impacts = 2, double_sided_impacts = 3
+   !> Verdicts. Impacts without separation are those of a tooth that floats up on its film while little presses it, and falls back
+   !> on it, but never leaves it.
+   integer, parameter, public :: no_separation = 0, separation_alone = 1, single_sided_impacts = 2, double_sided_impacts = 3, &
+                                 impacts_without_separation = 4
 
    !> Impacts on each contact, with times in periods since the window began and impulses in N s.
    type, public :: window_impacts_t
@@ -133,14 +135,14 @@ contains
       case (2)
          verdict_of = double_sided_impacts
       case (1)
-         verdict_of = single_sided_impacts
+         verdict_of = merge(single_sided_impacts, impacts_without_separation, has_separation(problem, extremes, impacts))
       case default
          verdict_of = merge(separation_alone, no_separation, has_separation(problem, extremes, impacts))
       end select
    end function verdict_of
 
    !> In what two windows of a motion agree. Of windows that are shorter than the motion the numbers may not be those of all of it,
-   !> and the verdict is it only if every flank is hit, which more periods do not change.
+   !> and the verdict is it only if every flank is hit by a tooth that leaves it, which more periods do not change.
    pure type(impact_agreement_t) function agreement_of(problem, extremes, impacts, other_extremes, others, is_part) &
       result(agreement)
       type(problem_t), intent(in) :: problem
@@ -154,7 +156,8 @@ contains
       agreement%verdict = verdict_of(problem, extremes, impacts) == verdict_of(problem, other_extremes, others)
       agreement%numbers = all(impacts%contacts%count*others%periods == others%contacts%count*impacts%periods)
       if (.not. is_part) return
-      agreement%verdict = agreement%verdict .and. count(impacts%contacts%count > 0) == contact_count(problem)
+      agreement%verdict = agreement%verdict .and. count(impacts%contacts%count > 0) == contact_count(problem) .and. &
+                          has_separation(problem, extremes, impacts)
       agreement%numbers = .false.
    end function agreement_of
 

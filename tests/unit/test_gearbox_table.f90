@@ -110,7 +110,7 @@ contains
       ! The largest film force comes first.
       call expect(checks, log, ' [N] [W] g3 double-sided impacts idle 0.3704 90.00 3.500 12.00 300.0 '// &
                   'g2 double-sided impacts idle 0.2469 40.00 2.500 4.000 20.00 '// &
-                  'g1 single-sided impacts idle, verified 0.1235 20.00 1.500 3.000 1.000 ')
+                  'g1 impacts without separation idle, verified 0.1235 20.00 1.500 3.000 1.000 ')
       call expect(checks, log, ' together, uncorrelated 13.00 321.0 ')
       call expect(checks, log, ' together, in phase '//short_text(sums%force_in_phase, 4)//' ')
       call expect(checks, log, ' '//sums%words//' ')
