@@ -53,6 +53,7 @@ KNOW_FLANKS = {
     "steps of films in nodes: each flank has nodes, a gap and a deflection": (
         "motion/nodal_engine",
         "motion/nodal_profiles",
+        "motion/nodal_start",
         "motion/nodal_state",
         "motion/nodal_step",
         "motion/nodal_tangent",

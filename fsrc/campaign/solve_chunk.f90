@@ -270,8 +270,7 @@ contains
       end associate
    end function prepared_row
 
-   !> Solve a row again in nodes of pressure, as a single scene is. Where nodes stop, and where a motion does not start from rest, the
-   !> row stays that of the closure.
+   !> Solve a row again in nodes of pressure, as a single scene is. Where nodes stop the row stays that of the closure.
    subroutine solve_row_in_nodes(scene, plan, values, number, needed, row, error)
       !> Base scene; its varied keys are changed
       type(scene_t), intent(inout) :: scene
@@ -289,7 +288,6 @@ contains
       type(judged_scene_t) :: judged
 
       call set_varied_keys(scene, plan%positions, values)
-      if (scene%film%initial_film > 0.0_dp .or. abs(scene%film%initial_velocity) > 0.0_dp) return
       single = scene_in_nodes(scene)
       single%solver%kept_per_period = scene%campaign%samples_per_period
       single%output%series = .false.

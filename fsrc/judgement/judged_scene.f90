@@ -433,6 +433,8 @@ contains
          value = impacts%impulse_maximum
       case (contact_impact_impulse_mean)
          value = impulse_mean(impacts)
+      case (contact_restitution)
+         if (impacts%approach > 0.0_dp) value = impacts%departure/impacts%approach
       case default
          continue
       end select

@@ -4,6 +4,8 @@
 !> below half of the smaller one in between. The interval of an impact is the stretch about its largest maximum in which
 !> W > F_max; two impacts in one stretch part where W is lowest between them. Where W > F_max all along there is no impact. Where
 !> its interval begins the gear approaches the flank at some velocity, and the integral of W over the interval is the impulse.
+!> Restitution is the velocity away from the flank where W falls to F_max after the largest impact over that of approach where W
+!> rose past F_max before it.
 !>
 !> A window is taken as cyclic, since a motion that repeats goes on where it began: the points before W is low for the first
 !> time are kept, and come once more behind the end.
@@ -48,6 +50,11 @@ module impacts
       real(dp) :: impulse_maximum = 0.0_dp
       real(dp) :: velocity_maximum = 0.0_dp
       real(dp) :: impulse_sum = 0.0_dp
+      !> Load of the largest impact whose stretch of W > F_max is over [N], and the velocities of approach where this began and away
+      !> from the flank where it ended [m/s]; 0 of approach: not known, as it did not begin or end within the window
+      real(dp) :: followed_load = 0.0_dp
+      real(dp) :: approach = 0.0_dp
+      real(dp) :: departure = 0.0_dp
       !> The first of them
       type(impact_t), allocatable :: kept(:)
    end type impact_count_t
@@ -67,6 +74,8 @@ module impacts
       logical, private :: is_open = .false., in_its_stretch = .false.
       type(impact_t), private :: open = impact_t()
       !> Where its interval begins, where the present stretch does, and the lowest point since its maximum
+      !> Largest load of the impacts of the present stretch [N], and velocity of approach where it began [m/s]
+      real(dp), private :: stretch_load = 0.0_dp, rise_velocity = 0.0_dp
       type(load_point_t), private :: its_begin = load_point_t(), begin = load_point_t(), valley = load_point_t()
    end type impact_watch_t
 
@@ -142,7 +151,9 @@ contains
       if (watch%above .eqv. point%load > watch%level) return
       seam = watch%last
       seam%kind = point_fall
+      watch%rise_velocity = 0.0_dp
       if (watch%above) call follow(seam, watch)
+      watch%stretch_load = 0.0_dp
       watch%begin = point
    end subroutine join_ends
 
@@ -173,7 +184,14 @@ contains
          if (watch%is_open) call close_impact(point, watch)
       case (point_rise)
          watch%begin = point
+         watch%rise_velocity = point%velocity
+         watch%stretch_load = 0.0_dp
       case (point_fall)
+         if (watch%stretch_load > watch%followed_load) then
+            watch%followed_load = watch%stretch_load
+            watch%approach = watch%rise_velocity
+            watch%departure = -point%velocity
+         end if
          if (watch%in_its_stretch) call end_interval(point, watch)
          if (point%load < watch%valley%load) watch%valley = point
       case default
@@ -199,6 +217,7 @@ contains
 
       watch%is_open = .true.
       watch%in_its_stretch = .true.
+      watch%stretch_load = max(watch%stretch_load, point%load)
       watch%its_begin = watch%begin
       watch%open = impact_t(time=point%time, load=point%load, velocity=watch%begin%velocity)
       watch%valley = point

@@ -1,5 +1,5 @@
-!> Motion of a gear whose flanks bend under films solved in nodes of pressure: the gear at rest, its periods by the steps of module
-!> nodal_step, their samples, and when the motion repeats.
+!> Motion of a gear whose flanks bend under films solved in nodes of pressure: its periods by the steps of module nodal_step, from the
+!> start of module nodal_start, their samples, and when the motion repeats.
 module nodal_engine
    use starting_state, only: initial_state
    use clock, only: wall_seconds
@@ -8,14 +8,12 @@ module nodal_engine
    use errors, only: error_t
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
-   use nodal_film, only: shares_of_fourth_order
-   use nodal_flank, only: accept_step, correct_flank, finish_step, is_bent, kept_times, nodal_contact_t, nodal_flank_t, &
-      respond, rigid_gap, share_that_leaves_a_film, step_weights_t, stiffen
+   use nodal_flank, only: kept_times
    use nodal_profiles, only: nodal_profiles_t, note_profiles, start_profiles
+   use nodal_start, only: start_of_gear
    use nodal_state, only: pack_motion, unpack_motion
-   use nodal_step, only: begin_period, distance_of_states, first_step, gear_t, is_late, most_steps, motion_t, nodal_choice_t, &
-      set_up, state_of, take_step
-   use problem, only: of_drive_compression, of_film, of_velocity, problem_t, state_size, static_load
+   use nodal_step, only: begin_period, distance_of_states, gear_t, is_late, most_steps, motion_t, nodal_choice_t, set_up, take_step
+   use problem, only: of_film, of_velocity, problem_t, state_size
    use repetition, only: kept_states, longest_orbit, orbit_watch_t
    use scene_status, only: status_complete, status_film_cycles, status_film_torn, status_interrupted, status_steady, &
       status_time_limit
@@ -25,12 +23,6 @@ module nodal_engine
    implicit none(type, external)
    private
 
-   !> Newton's iterations for the gear at rest: of them all, and before nodes change one by one
-   integer, parameter :: most_rest_iterations = 120, free_rest_iterations = 80
-   !> By how much the load grows from one film at rest to the next, at most and at least
-   real(dp), parameter :: largest_growth = 1.4_dp, least_growth = 1.005_dp
-   !> Share up to which two loads are the same
-   real(dp), parameter :: same_load = 1.0e-3_dp
    !> States at the ends of periods that are kept, and share of the tolerance of a step up to which a motion repeats
    integer, parameter :: kept_periods = kept_states
    real(dp), parameter :: repetition_share = 2.0_dp
@@ -54,7 +46,7 @@ module nodal_engine
 
 contains
 
-   !> Solve the motion of a problem from rest.
+   !> Solve the motion of a problem from its start.
    subroutine solve_in_nodes(problem, choice, request, sink, watcher, checkpoint, ending, record, error, profiles)
       !> What moves
       type(problem_t), intent(in) :: problem
@@ -139,14 +131,14 @@ contains
       if (present(profiles)) profiles = run%kept
    end subroutine solve_in_nodes
 
-   !> Begin a motion at rest, or where it is carried on from.
+   !> Begin a motion at its start, or where it is carried on from.
    pure subroutine start_run(problem, choice, samples_per_period, checkpoint, run, ending)
       type(problem_t), intent(in) :: problem
       type(nodal_choice_t), intent(in) :: choice
       integer, intent(in) :: samples_per_period
       type(checkpoint_t), intent(in) :: checkpoint
       type(nodal_run_t), intent(out) :: run
-      !> With a status other than complete where no film at rest is found
+      !> With a status other than complete where no film at the start is found
       type(ending_t), intent(inout) :: ending
       logical :: found
 
@@ -158,7 +150,7 @@ contains
          ending%count = checkpoint%count
          ending%periods = checkpoint%periods
       else
-         call rest_of_gear(run%gear, run%motion, found)
+         call start_of_gear(run%gear, run%motion, found)
       end if
       allocate (ending%numbers(state_size(problem)), source=initial_state(problem))
       ending%status = merge(status_complete, status_film_cycles, found)
@@ -261,148 +253,7 @@ contains
       orbit = 0
    end function orbit_of
 
-   !> The gear at rest under its static load, from films that carry it each.
-   pure subroutine rest_of_gear(gear, motion, found)
-      type(gear_t), intent(in) :: gear
-      type(motion_t), intent(out) :: motion
-      logical, intent(out) :: found
-      type(step_weights_t) :: at_rest
-      real(dp) :: start(state_size(gear%problem)), loads(2), static, load(2), by_gap(2), change, changes, correction, share
-      integer :: flank, iteration, j
-
-      at_rest = step_weights_t()
-      start = initial_state(gear%problem)
-      static = static_load(gear%problem)/gear%load_unit
-      found = gear%problem%initial_film > 0.0_dp
-      if (.not. found) return
-      loads = 0.0_dp
-      loads(:gear%flanks) = start(of_drive_compression:of_velocity + gear%flanks)/(gear%problem%contact%compliance*gear%load_unit)
-      ! A closure may have one film under two loads, and then gives the other load or none.
-      associate (target => static + loads(2))
-         if (target > 0.0_dp .and. abs(loads(1) - target) > same_load*target) loads(1) = target
-      end associate
-      do flank = 1, gear%flanks
-         call rest_of_film(gear%contact, loads(flank), motion%flanks(flank), found)
-         if (.not. found) return
-      end do
-      motion%position = motion%flanks(1)%gap(merge(0, 1, motion%flanks(1)%in_nodes))
-      do flank = 1, gear%flanks
-         associate (film => motion%flanks(flank))
-            film%gap(0) = motion%position(0)
-            if (flank == 2) film%gap(0) = gear%backlash - motion%position(0)
-            if (.not. film%in_nodes) film%film(0) = film%film(1)
-            film%rate = 0.0_dp
-            film%past_film = 0.0_dp
-         end associate
-      end do
-      do iteration = 1, most_rest_iterations
-         load = 0.0_dp
-         by_gap = 0.0_dp
-         do flank = 1, gear%flanks
-            call respond(gear%contact, iteration > free_rest_iterations, motion%flanks(flank), load(flank), by_gap(flank), found)
-            if (.not. found) return
-         end do
-         correction = (load(1) - load(2) - static)/(-sum(by_gap))
-         share = share_that_leaves_a_film(motion%flanks(1), correction)
-         if (gear%flanks == 2) share = min(share, share_that_leaves_a_film(motion%flanks(2), -correction))
-         changes = 0.0_dp
-         do flank = 1, gear%flanks
-            call correct_flank(gear%contact, share, merge(correction, -correction, flank == 1), motion%flanks(flank), change)
-            changes = max(changes, change)
-         end do
-         motion%position(0) = motion%position(0) + share*correction
-         if (changes < 1.0e-10_dp .and. abs(correction) < 1.0e-10_dp*(1.0_dp + abs(motion%position(0)))) exit
-      end do
-      found = changes < 1.0e-6_dp
-      if (.not. found) return
-      do flank = 1, gear%flanks
-         call finish_step(gear%contact, at_rest, motion%flanks(flank))
-         ! It has stood still for long.
-         do j = 1, kept_times
-            call accept_step(gear%contact, motion%flanks(flank))
-         end do
-      end do
-      motion%position = motion%position(0)
-      motion%velocity = 0.0_dp
-      motion%time = 0.0_dp
-      motion%known = 1
-      motion%step = first_step
-      allocate (motion%states(0:kept_times, state_size(gear%problem)))
-      do j = 0, kept_times
-         motion%states(j, :) = state_of(gear, motion, 1)
-      end do
-   end subroutine rest_of_gear
-
-   !> A film at rest under a load: that of rigid flanks, or in nodes, where the load grows step by step.
-   pure subroutine rest_of_film(contact, load, film, found)
-      type(nodal_contact_t), intent(in) :: contact
-      !> M [-]
-      real(dp), intent(in) :: load
-      type(nodal_flank_t), intent(inout) :: film
-      logical, intent(out) :: found
-      type(nodal_flank_t) :: solved
-      real(dp) :: target, growth, solved_load
-
-      found = .true.
-      ! A rigid film at rest: M H = 12 Phi(0), of which Phi(0) is 0.2039.
-      film%film = 12.0_dp*0.2039_dp/max(load, 1.0e-12_dp)
-      film%load = load
-      film%gap = rigid_gap(contact, film%film(1), film%load(1))
-      film%bending(0) = 4.0_dp/3.14_dp*film%load(1)/film%film(1)
-      ! Of 0.64 M/sqrt(2 H) as the largest pressure
-      film%bending(0) = max(film%bending(0), 0.064_dp*contact%oil%material*film%load(1)/sqrt(2.0_dp*film%film(1)))
-      if (.not. is_bent(contact, film)) return
-      target = min(0.1_dp, film%load(1))
-      film%film = 12.0_dp*0.2039_dp/target
-      film%load = target
-      film%gap = rigid_gap(contact, film%film(1), target)
-      call stiffen(contact, film)
-      film%gap(0) = film%gap(1)
-      film%pressures(:, 0) = film%pressures(:, 1)
-      film%active = film%pressures(:, 0) > 0.0_dp
-      film%fourth = shares_of_fourth_order(film%pressures(:, 0))
-      film%rate = 0.0_dp
-      film%past = 0.0_dp
-      growth = largest_growth
-      solved_load = 0.0_dp
-      do
-         call rest_under(contact, target, film, found)
-         if (found) then
-            if (.not. target < load) return
-            solved_load = target
-            solved = film
-         else
-            ! From the last load that was solved by a smaller step
-            growth = sqrt(growth)
-            if (growth < least_growth .or. .not. solved_load > 0.0_dp) return
-            film = solved
-         end if
-         target = min(load, growth*solved_load)
-      end do
-   end subroutine rest_of_film
-
-   !> A film in nodes at rest under a load, from one that is near it.
-   pure subroutine rest_under(contact, target, film, found)
-      type(nodal_contact_t), intent(in) :: contact
-      !> M [-]
-      real(dp), intent(in) :: target
-      type(nodal_flank_t), intent(inout) :: film
-      logical, intent(out) :: found
-      real(dp), parameter :: last_change = 1.0e-9_dp
-      real(dp) :: load, by_gap, change
-      integer :: iteration
-
-      do iteration = 1, most_rest_iterations
-         call respond(contact, iteration > free_rest_iterations, film, load, by_gap, found)
-         if (.not. found) return
-         call correct_flank(contact, 1.0_dp, (target - load)/by_gap, film, change)
-         film%fourth = shares_of_fourth_order(film%pressures(:, 0))
-         found = change < last_change
-         if (found) return
-      end do
-   end subroutine rest_under
-
-   !> z'' of a gear at rest [m/s2].
+   !> z'' of a gear where its motion begins [m/s2].
    pure real(dp) function first_acceleration(gear, motion) result(acceleration)
       type(gear_t), intent(in) :: gear
       type(motion_t), intent(in) :: motion

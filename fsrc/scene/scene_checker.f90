@@ -349,7 +349,7 @@ contains
          call input%refuse('contact.flattening_included', 'rigid flanks have nothing to include; give a stiffness or '//law)
    end subroutine check_film_model
 
-   !> Films in nodes of pressure are those of a single motion from rest.
+   !> Films in nodes of pressure are those of a single motion.
    subroutine check_resolved(input, elastic)
       type(scene_input_t), intent(inout) :: input
       !> Whether the law is the elastohydrodynamic one
@@ -364,14 +364,14 @@ contains
          call input%refuse('film.model', "'resolved' is for task = 'motion'; take 'closure' for many scenes")
       if (.not. input%is_faulty('solver.accuracy') .and. input%number('solver.accuracy') < finest) &
          call input%refuse('solver.accuracy', "too fine for model = 'resolved'; allowed: 1e-5 to 1e-2")
-      call check_nodes(input, 'resolved')
+      call check_nodes(input)
       if (input%is_given('solver.starts') .and. input%count('solver.starts') > 1) &
-         call input%refuse('solver.starts', "model = 'resolved' follows the motion from rest alone; leave it out, or "// &
+         call input%refuse('solver.starts', "model = 'resolved' follows one motion alone; leave it out, or "// &
                            "look for others with model = 'closure'")
       call check_profiles(input)
    end subroutine check_resolved
 
-   !> Films in nodes of pressure where the closure does not do are those of motions from rest, single ones or rows of campaigns.
+   !> Films in nodes of pressure where the closure does not do are those of single motions, or of rows of campaigns.
    subroutine check_automatic(input, elastic)
       type(scene_input_t), intent(inout) :: input
       !> Whether the law is the elastohydrodynamic one
@@ -385,24 +385,16 @@ contains
          call input%refuse('film.model', "'automatic' is for task = 'motion' or 'campaign'; sweeps and thresholds follow "// &
                            "motions from one value to the next, which films in nodes do not; take 'closure'")
       if (input%word('solver.method') /= 'taylor') call input%refuse('film.model', "'automatic' needs the taylor method")
-      call check_nodes(input, 'automatic')
+      call check_nodes(input)
    end subroutine check_automatic
 
-   !> The number of nodes is one of the list, and films in nodes start from rest.
-   subroutine check_nodes(input, model)
+   !> The number of nodes is one of the list.
+   subroutine check_nodes(input)
       type(scene_input_t), intent(inout) :: input
-      !> Its word
-      character(*), intent(in) :: model
       integer, parameter :: choices(5) = [24, 32, 48, 64, 128]
-      character(*), parameter :: starts(2) = [character(16) :: 'initial_film', 'initial_velocity']
-      integer :: i
 
       if (.not. input%is_faulty('film.nodes') .and. .not. any(input%count('film.nodes') == choices)) &
          call input%refuse('film.nodes', 'not a number of nodes; allowed: 24, 32, 48, 64, 128')
-      do i = 1, size(starts)
-         if (input%is_given('film.'//starts(i))) &
-            call input%refuse('film.'//starts(i), "model = '"//model//"' starts from rest; leave it out")
-      end do
    end subroutine check_nodes
 
    !> When profiles are written is reported once, in the order of time.

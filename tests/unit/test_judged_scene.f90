@@ -119,6 +119,10 @@ contains
          coast%impulse_maximum = 66.0_dp
          drive%impulse_sum = 16.0_dp
          coast%impulse_sum = 60.0_dp
+         drive%approach = 8.0_dp
+         drive%departure = 6.0_dp
+         coast%approach = 5.0_dp
+         coast%departure = 2.0_dp
          drive%kept = [impact_t(time=0.5_dp, load=71.0_dp, velocity=72.0_dp, impulse=73.0_dp)]
          coast%kept = [impact_t(time=1.5_dp, load=74.0_dp, velocity=75.0_dp, impulse=76.0_dp)]
       end associate
@@ -221,6 +225,8 @@ contains
       call expect('impact_impulse_maximum_coast', 66.0_dp)
       call expect('impact_impulse_mean_drive', 2.0_dp)
       call expect('impact_impulse_mean_coast', 3.0_dp)
+      call expect('restitution_drive', 0.75_dp)
+      call expect('restitution_coast', 0.4_dp)
 
    contains
 
@@ -285,6 +291,8 @@ contains
       judged%orbit%period = 0
       call checks%check_close(quantity_value(code_of('orbit_period'), judged), 3.0_dp, 0.0_dp, 'an orbit that the engine saw')
       call checks%check(ieee_is_nan(quantity_value(code_of('floquet_modulus'), judged)), 'no orbit, no multiplier')
+      judged%impacts%contacts(drive_flank)%approach = 0.0_dp
+      call checks%check(ieee_is_nan(quantity_value(code_of('restitution_drive'), judged)), 'no approach, no restitution')
       judged%impacts%exists = .false.
       call checks%check(ieee_is_nan(quantity_value(code_of('impacts_drive'), judged)), 'impacts that nobody asked for')
       judged%verification%exists = .false.

@@ -19,7 +19,7 @@ module test_quantities
       quantity_film_at_pressure_maximum, quantity_film_model, quantity_pressure_error, quantity_pressure_resolved, &
       quantity_impacts_drive, quantity_verified, quantity_gear_position_maximum, quantity_gear_position_minimum, &
       quantity_film_dissipated_power, quantity_tooth_dissipated_power, quantity_periods_solved, quantity_status, &
-      quantity_table, quantity_word
+      quantity_restitution_coast, quantity_restitution_drive, quantity_table, quantity_word
    use run_sweep, only: carried_state_t, solve_value
    use scene_solution, only: solve_in_memory
    use sampling, only: plan_table, sample_plan_t
@@ -106,6 +106,11 @@ contains
          else if (any(i == [quantity_pressure_error, quantity_pressure_resolved, quantity_film_at_pressure_maximum, &
                             quantity_central_film, quantity_film_model])) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of films without nodes')
+         else if (any(i == [quantity_restitution_drive, quantity_restitution_coast])) then
+            call checks%check(ieee_is_nan(quantity_value(i, single)) .eqv. &
+                              nint(quantity_value(merge(quantity_impacts_drive, quantity_impacts_coast, &
+                                                        i == quantity_restitution_drive), single)) == 0, &
+                              trim(quantity_table(i)%name)//' is known where there are impacts')
          else if (i == quantity_motion_end) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of no threshold')
          else if (i == quantity_closure_range) then

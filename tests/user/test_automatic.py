@@ -156,7 +156,6 @@ def test_a_scene_says_why(rows: Path, run) -> None:
             "'automatic' needs law = 'elastohydrodynamic'",
         ),
         ("model = 'automatic'", "model = 'automatic', nodes = 40", "not a number of nodes"),
-        ("model = 'automatic'", "model = 'automatic', initial_film = 1e-6", "starts from rest"),
     ),
 )
 def test_what_makes_no_sense_is_refused(old: str, new: str, message: str, run, tmp_path: Path) -> None:
