@@ -17,7 +17,7 @@ module automatic_model
    private
 
    !> Accuracy of films in nodes, their default
-   real(dp), parameter :: nodal_accuracy = 1.0e-3_dp
+   real(dp), parameter :: nodal_accuracy = 3.0e-3_dp
 
    !> Why a motion is solved in nodes; and load, limit [N] and error of the closure [-] where that is what it is about.
    integer, parameter :: because_closure_ended = 1, because_out_of_range = 2, because_of_impact = 3, because_of_separation = 4

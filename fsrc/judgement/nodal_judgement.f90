@@ -34,11 +34,11 @@ module nodal_judgement
    implicit none(type, external)
    private
 
-   !> Share of the accuracy that is the tolerance of a step; bound of bending, beyond which films are solved in nodes, over the
-   !> accuracy
-   real(dp), parameter :: tolerance_share = 0.3_dp, bound_factor = 10.0_dp
-   !> Largest bound: one percent of bending, and ten of alpha p
-   real(dp), parameter :: largest_bound = 1.0e-2_dp
+   !> Share of the accuracy that is the tolerance of a step, which errors of flights grow from, and the least tolerance
+   real(dp), parameter :: tolerance_share = 0.005_dp, least_tolerance = 2.0e-7_dp
+   !> Bound of bending, beyond which films are solved in nodes: the accuracy, but no more than one percent (ten of alpha p), and no
+   !> less than what some nodes resolve
+   real(dp), parameter :: largest_bound = 1.0e-2_dp, nodes_of_that = 32.0_dp
    !> S of the grid over the width of the widest contact, sqrt(2 H + 8 M/pi)
    real(dp), parameter :: width_factor = 1.6_dp
    !> Motion by the closure that gives the widest contact: its accuracy, and most periods of it
@@ -68,8 +68,8 @@ contains
       associate (problem => scene%resolved%problem, request => scene%request, oil => scene%resolved%problem%contact%film%closure)
          if (request%time_limit > 0.0_dp) choice%ends_at = wall_seconds() + request%time_limit
          choice%nodes = scene%nodes
-         choice%tolerance = tolerance_share*request%accuracy
-         choice%bound = min(largest_bound, bound_factor*request%accuracy)
+         choice%tolerance = max(tolerance_share*request%accuracy, least_tolerance)
+         choice%bound = min(largest_bound, max(request%accuracy, largest_bound*(nodes_of_that/real(choice%nodes, dp))**3))
          by_closure = problem
          by_closure%contact%film%in_nodes = .false.
          ! As many of any run, so that one that is carried on has the same grid.

@@ -19,7 +19,7 @@ module prepared_scene
    private
 
    !> Acceleration by which films in nodes may be off without any motion, over the accuracy and what the force gives the mass [-]
-   real(dp), parameter :: nodal_share = 0.2_dp
+   real(dp), parameter :: nodal_share = 0.02_dp
 
    !> What follows from a scene.
    type, public :: resolved_scene_t

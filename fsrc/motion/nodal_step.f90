@@ -88,7 +88,7 @@ module nodal_step
    !> Rejected steps in a row after which an unloaded film is torn, its load and the times it may be in a period
    integer, parameter :: most_rejected = 6, most_torn = 20
 
-   !> Steps of a period after which a motion is given up; it takes 400 to 800, and 2000 at the finest accuracy
+   !> Steps of a period after which a motion is given up; it takes some 1200, and 6000 at the finest accuracy
    integer(int64), parameter, public :: most_steps = 50000_int64
 
    public :: is_late, set_up, state_of, take_step, begin_period, distance_of_states

@@ -41,6 +41,9 @@ module problem
       !> h [m] and z' [m/s] at the start; no film: there is none that carries the static load
       real(dp) :: initial_film = 0.0_dp
       real(dp) :: initial_velocity = 0.0_dp
+      !> Films of drive and coast flank at rest under the static load [m], found once for what is asked of them in every period; who
+      !> changes contact, loads or backlash sets them anew. Negative: not found yet
+      real(dp) :: rest_films(2) = -1.0_dp
    end type problem_t
 
    !> The contacts of a problem: that of the drive flank, and where there is a backlash that of the coast flank.
@@ -83,6 +86,7 @@ contains
       problem%initial_film = scene%film%initial_film
       if (.not. problem%initial_film > 0.0_dp) problem%initial_film = film_at_rest(problem, scene%excitation%static_load())
       problem%initial_velocity = scene%film%initial_velocity
+      problem%rest_films = films_at_rest(problem, static_load(problem))
    end function problem_of
 
    !> Static load Q + m g [N].
@@ -255,6 +259,15 @@ contains
       end if
    end function films_at_rest
 
+   !> Films at rest under the static load [m]: 0 where there are none, the second huge where there is one flank.
+   pure function steady_films(problem) result(films)
+      type(problem_t), intent(in) :: problem
+      real(dp) :: films(2)
+
+      films = problem%rest_films
+      if (films(1) < 0.0_dp) films = films_at_rest(problem, static_load(problem))
+   end function steady_films
+
    !> Films at rest, near enough to tell how films settle: of rigid teeth about a film near that of the drive flank at rest [m].
    pure function films_near_rest(problem, film) result(films)
       type(problem_t), intent(in) :: problem
@@ -263,7 +276,7 @@ contains
       real(dp) :: films(2)
 
       films = rigid_films(problem, film)
-      if (has_elastic_teeth(problem)) films = films_at_rest(problem, static_load(problem))
+      if (has_elastic_teeth(problem)) films = steady_films(problem)
    end function films_near_rest
 
    !> Films of drive and coast flank of rigid teeth, the second huge where there is one flank [m].
@@ -376,7 +389,7 @@ contains
       type(problem_t), intent(in) :: problem
       real(dp) :: films(2)
 
-      films = films_at_rest(problem, static_load(problem))
+      films = steady_films(problem)
       if (films(1) > 0.0_dp) return
       films = [problem%initial_film, problem%backlash - problem%initial_film]
       ! Elastic teeth let a film grow beyond the backlash.

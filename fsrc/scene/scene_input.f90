@@ -165,17 +165,33 @@ contains
       end do
       if (self%word('film.law') == 'elastohydrodynamic') then
          if (.not. self%is_given('film.model')) self%entries(find_key('film.model'))%word = 'closure'
-         i = find_key('solver.accuracy')
-         if (self%word('film.model') == 'resolved' .and. .not. self%entries(i)%given) then
-            key = keys(i)
-            key%default = '1.0e-3'
-            self%entries(i) = new_entry(key, self%file)
-         end if
+         if (self%word('film.model') == 'resolved') call choose_nodes(self)
       else
          i = find_key('lubricant.viscosity_law')
          if (.not. self%entries(i)%given) self%entries(i)%word = trim(keys(i)%default)
       end if
    end subroutine choose_defaults
+
+   !> Accuracy of films in nodes unless given, and as many nodes as it needs unless given (tests/stress/README.md).
+   subroutine choose_nodes(self)
+      class(scene_input_t), intent(inout) :: self
+      character(*), parameter :: names(*) = [character(3) :: '32', '48', '64', '128']
+      real(dp), parameter :: least_accuracies(*) = [1.0e-2_dp, 3.0e-3_dp, 1.0e-3_dp, 0.0_dp]
+      type(key_t) :: key
+      integer :: accuracy, nodes
+
+      accuracy = find_key('solver.accuracy')
+      nodes = find_key('film.nodes')
+      if (.not. self%entries(accuracy)%given) then
+         key = keys(accuracy)
+         key%default = '3.0e-3'
+         self%entries(accuracy) = new_entry(key, self%file)
+      end if
+      if (self%entries(accuracy)%faulty .or. self%entries(nodes)%given) return
+      key = keys(nodes)
+      key%default = names(findloc(self%entries(accuracy)%number >= least_accuracies, .true., dim=1))
+      self%entries(nodes) = new_entry(key, self%file)
+   end subroutine choose_nodes
 
    !> Whether the user set a key.
    pure logical function is_given(self, key)

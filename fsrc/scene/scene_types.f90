@@ -278,7 +278,7 @@ module scene_types
       integer :: rupture = rupture_half_pi
       integer :: rupture_solver = rupture_solver_fast
       !> Nodes of pressure across a contact
-      integer :: nodes = 32
+      integer :: nodes = 48
       !> Film at t = 0 [m]; 0: the steady film
       real(dp) :: initial_film = 0.0_dp
       !> Film velocity at t = 0 [m/s]

@@ -359,6 +359,7 @@ contains
       do law = law_iso_viscous, law_piezo_viscous
          problem = canonical(law, model_published, 1.0e15_dp)
          problem%contact%compliance = 0.0_dp
+         problem%rest_films = -1.0_dp
          call solve_window(problem, start_of(problem), 1.0e-10_dp, 256, 3, 3, rigid, z, ending, record)
          do i = 1, 2
             problem%contact%compliance = 1.0e-14_dp*0.1_dp**(i - 1)
@@ -454,6 +455,7 @@ contains
       do i = 1, 2
          pressed = between_flanks()
          pressed%contact%compliance = 1.0_dp/stiffness(i)
+         pressed%rest_films = -1.0_dp
          turned = pressed
          pressed%force%steady = load(i)
          turned%force%steady = -load(i)

@@ -51,7 +51,8 @@ contains
 
       scene = scene_g(viscosity_roelands)
       scene%film%model = model_resolved
-      scene%solver%accuracy = 1.0e-3_dp
+      scene%film%nodes = 32
+      scene%solver%accuracy = 1.0e-2_dp
       scene%solver%kept_per_period = 64
       scene%solver%periods = 2
       scene%spectrum%periods = 1

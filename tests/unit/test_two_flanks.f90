@@ -313,6 +313,7 @@ contains
 
       problem = problem_of(canonical_between_flanks(law_iso_viscous, model_reynolds, rupture_half_pi))
       problem%force%steady = 199.2_dp
+      problem%rest_films = -1.0_dp
       problem%backlash = huge(1.0_dp)
       problem%initial_film = 1.0e-6_dp
       call solve_window(problem, start_of(problem), 1.0e-11_dp, 64, 3, 3, states, z, ending, record)

@@ -51,7 +51,7 @@ def test_profiles_are_those_of_the_impacts(solved: Path) -> None:
         columns = one.columns
         carried = 0.018943 * np.sum(columns["pressure"] * columns["weight"])
         assert carried == pytest.approx(one.load, rel=1e-12)
-        assert columns["position"].size == 32 and (np.diff(columns["position"]) > 0.0).all()
+        assert columns["position"].size == 48 and (np.diff(columns["position"]) > 0.0).all()
         # Roelands' law at the pressure of each node, and the oil as given where there is none.
         exponent = 1.96e8 * 1.57335e-8 / (np.log(0.0214299) + 9.67)
         grown = (1.0 + columns["pressure"] / 1.96e8) ** exponent
@@ -97,7 +97,8 @@ def test_figure_and_moving_picture_show_them(solved: Path, tmp_path: Path) -> No
         for one, (place, pressure), (_, dry) in zip(shown, drawn[0::2], drawn[1::2], strict=True):
             np.testing.assert_allclose(place[:: profiles.BETWEEN], one.place, rtol=1e-12)
             np.testing.assert_allclose(pressure[:: profiles.BETWEEN], one.pressure, rtol=1e-9, atol=1e-9)
-            assert dry.max() == pytest.approx(one.dry.max(), rel=0.02) and dry.max() >= one.dry.max()
+            # The top of a narrow dry contact lies between two of the 48 nodes, 2.8 % above both.
+            assert dry.max() == pytest.approx(one.dry.max(), rel=0.04) and dry.max() >= one.dry.max()
         movie = animation.moving_pictures(result, "one")
     (path,) = write([(tmp_path / "one.gif", movie)], overwrite=False)
     assert path.read_bytes()[:3] == b"GIF"

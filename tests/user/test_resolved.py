@@ -33,8 +33,6 @@ def test_the_load_of_the_paper(law: str, peak: float, film: float, repository: P
     scene = repository / "input" / "elastohydrodynamic.nml"
     settings = {
         "film.model": "resolved",
-        "film.nodes": 64,
-        "solver.accuracy": 3e-4,
         "lubricant.viscosity_law": law,
     }
     told = package.run(scene, set=settings).summary
@@ -62,7 +60,7 @@ def test_a_gear_is_near_its_closure_and_within_its_errors() -> None:
     told, series = solved.summary, solved.result
     assert told["verification"] == "verified" and told["status"] == "steady"
     assert "with twice the nodes and a tighter tolerance agrees" in told["verification_text"]
-    finer = package.run(GEAR, set={"film.nodes": 64, "solver.accuracy": 1e-4}).summary
+    finer = package.run(GEAR, set={"solver.accuracy": 1e-3}).summary
     for name in ("acceleration_maximum", "acceleration_minimum", "film_minimum", "film_maximum"):
         assert abs(told[name] - finer[name]) <= told[f"{name}_error"] + finer[f"{name}_error"], name
     closure = package.run(GEAR, set={"film.model": "closure", "solver.starts": 1}).summary
@@ -156,7 +154,8 @@ def test_multipliers_are_what_deviations_decay_by(repository: Path) -> None:
     settings = {
         "lubricant.viscosity_law": "constant",
         "film.model": "resolved",
-        "solver.accuracy": 1e-5,
+        "film.nodes": 32,
+        "solver.accuracy": 6e-4,
         "solver.until": "periods",
         "solver.periods": 62,
         "solver.samples_per_period": 64,
@@ -339,8 +338,25 @@ def test_a_stop_tells_when_where_and_under_which_load(run, tmp_path: Path) -> No
     assert package.run(light, set={"solver.starts": 1}).summary["status"] == "complete"
 
 
-def test_check_tells_the_model(run, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("accuracy", "given", "nodes"),
+    (
+        (None, None, 48),
+        (1e-2, None, 32),
+        (9e-3, None, 48),
+        (3e-3, None, 48),
+        (1e-3, None, 64),
+        (9e-4, None, 128),
+        (1e-5, 24, 24),
+    ),
+)
+def test_accuracy_chooses_nodes_unless_given(
+    accuracy: float | None, given: int | None, nodes: int, run, tmp_path: Path
+) -> None:
     (tmp_path / "one.nml").write_text(GEAR)
-    shown = run("--check", "one.nml", cwd=tmp_path)
+    settings = {"solver.accuracy": accuracy, "film.nodes": given}
+    changes = [word for key, value in settings.items() if value for word in ("--set", f"{key}={value}")]
+    shown = run("--check", *changes, "one.nml", cwd=tmp_path)
     assert shown.returncode == 0 and "its pressure in nodes" in shown.stdout
-    assert "nodes = 32" in shown.stdout and "accuracy = 0.001" in shown.stdout
+    assert re.findall(r"nodes = (\d+)", shown.stdout) == [str(nodes)]
+    assert float(re.findall(r" accuracy = (\S+)", shown.stdout)[0].rstrip(",")) == (accuracy or 3e-3)
