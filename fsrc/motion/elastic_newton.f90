@@ -2,7 +2,7 @@
 !> much their laws miss at the nodes, and what the loads change of that; those of films with one stand in module inner_equations.
 module elastic_newton
    use collocation_basis, only: rounding, iteration_share
-   use elastic_trial, only: follow_loads, trial_t
+   use elastic_trial, only: follow_loads, iterate_t, trial_t
    use film_law, only: kept_load, most_films
    use flank_contact, only: carries_positive_loads, equations_of_films, film_equations_t, flank_contact_t, keeps_load
    use inner_equations, only: follow_films, inner_matrix, trial_inner_t, inner_residuals
@@ -54,10 +54,10 @@ contains
       type(lane_inner_t), intent(in) :: inner
       type(trial_t), intent(inout) :: trial
       type(trial_inner_t), intent(inout) :: inner_trial
-      type(trial_t) :: before
+      type(iterate_t) :: before
       type(slopes_t) :: slopes
       type(factors_t) :: factors
-      real(dp) :: matrix(most_rows, most_columns), right(most_rows), solution(most_columns), correction(rows, 2)
+      real(dp) :: matrix(most_rows, most_columns), right(most_rows), solution(most_rows), correction(rows, 2)
       real(dp) :: change, last_change, ratio, reach, share, state_change
       integer :: iteration, flank, i
       logical :: found, stalled, rising, anew, of_velocities(most_rows)
@@ -86,13 +86,13 @@ contains
             else
                call newton_matrix(contact%film%bends, lane, block, trial, slopes, matrix)
             end if
-            call factorise(stages*trial%flanks, rows*trial%flanks, matrix, factors)
+            call factorise(trial%flanks, matrix, factors)
          end if
-         call substitute(stages*trial%flanks, factors, right, solution)
+         call substitute(trial%flanks, factors, right, solution)
          rising = .false.
          change = 0.0_dp
          do flank = 1, trial%flanks
-            correction(:stages, flank) = solution(stages*(flank - 1) + 1:stages*flank)
+            correction(:stages, flank) = solution(rows*(flank - 1) + 1:rows*flank - 1)
             correction(rows, flank) = correction(stages, flank)
             if (carries_positive_loads(contact)) then
                rising = rising .or. any(correction(:, flank) > last_rise*trial%load(:, flank))
@@ -101,7 +101,7 @@ contains
             if (.not. all(abs(correction(:, flank)) < huge(1.0_dp))) return
             change = max(change, maxval(abs(correction(:, flank))))
          end do
-         before = trial
+         before = trial%iterate_t
          trial%load(:, :trial%flanks) = before%load(:, :trial%flanks) + correction(:, :trial%flanks)
          trial%gain(:, :trial%flanks) = before%gain(:, :trial%flanks) + correction(:, :trial%flanks)
          call follow_loads(contact, lane, force, block, trial)
@@ -113,15 +113,17 @@ contains
                   share = min(share, (1.0_dp - least_ratio)*before%film(i, flank)/(before%film(i, flank) - trial%film(i, flank)))
             end do
          end do
-         if (keeps_load(contact)) call stay_above(contact, lane, block, before, trial, of_velocities, share, rising)
+         if (keeps_load(contact)) call stay_above(contact, lane, block, trial%flanks, before, trial%iterate_t, &
+                                               of_velocities, share, rising)
          if (share < 1.0_dp) then
-            trial = before
+            trial%iterate_t = before
             trial%load(:, :trial%flanks) = before%load(:, :trial%flanks) + share*correction(:, :trial%flanks)
             trial%gain(:, :trial%flanks) = before%gain(:, :trial%flanks) + share*correction(:, :trial%flanks)
             call follow_loads(contact, lane, force, block, trial)
          end if
          state_change = 0.0_dp
-         if (inner%count > 0) call follow_films(lane, block, share, before, trial, inner, inner_trial%films, state_change)
+         if (inner%count > 0) call follow_films(lane, block, trial%flanks, share, before, trial%iterate_t, inner, &
+                                                   inner_trial%films, state_change)
          if (share < 1.0_dp .or. rising) then
             last_change = huge(1.0_dp)
             anew = .true.
@@ -143,13 +145,14 @@ contains
 
    !> Let loads stay above those that their films keep however fast they separate, at nodes whose equations are those of velocities:
    !> there the velocity goes with a negative power of what is above, as with the load of a film that never pulls.
-   pure subroutine stay_above(contact, lane, block, before, trial, of_velocities, share, rising)
+   pure subroutine stay_above(contact, lane, block, flanks, before, trial, of_velocities, share, rising)
       type(flank_contact_t), intent(in) :: contact
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
+      integer, intent(in) :: flanks
       !> Before and after the correction
-      type(trial_t), intent(in) :: before
-      type(trial_t), intent(in) :: trial
+      type(iterate_t), intent(in) :: before
+      type(iterate_t), intent(in) :: trial
       !> Of each node of one flank after the other, whether its equation is that of velocities
       logical, intent(in) :: of_velocities(most_rows)
       !> Of the correction, to be applied
@@ -159,7 +162,7 @@ contains
       real(dp) :: above, next
       integer :: flank, i
 
-      do flank = 1, trial%flanks
+      do flank = 1, flanks
          do i = 1, stages
             if (.not. of_velocities(rows*(flank - 1) + i)) cycle
             if (.not. min(before%film(i, flank), trial%film(i, flank)) > 0.0_dp) cycle

@@ -128,6 +128,7 @@ contains
       block%polynomial(lane, :) = polynomial(:stages, 0)
       block%load_polynomial(lane, :, :trial%flanks) = polynomial(:stages, 1:trial%flanks)
       block%last_step(lane) = block%step(lane)
+      block%coast_film(lane) = trial%film(stages, 2)
       block%damping_rate(lane) = 0.0_dp
       call series_of_step(lane, trial, block)
       if (bends) call add_width(lane, trial, block)

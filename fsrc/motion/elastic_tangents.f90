@@ -69,7 +69,7 @@ contains
          return
       end if
       call newton_matrix(contact%film%bends, lane, block, trial, slopes, matrix)
-      call factorise(stages*trial%flanks, rows*trial%flanks, matrix, factors)
+      call factorise(trial%flanks, matrix, factors)
       call width_slopes(contact, lane, block, trial, by_film, by_load)
       do i = 1, size(tangents%now, 2)
          call carry(contact%film%bends, block%step(lane), block%compliance(lane), block%damped_share(lane), trial, slopes, &
@@ -118,7 +118,7 @@ contains
       real(dp), intent(inout) :: tangent(:)
       real(dp), dimension(rows, 2) :: gap, film, loads, kept
       real(dp), dimension(rows) :: yielded, rate, acceleration, once, twice, moved
-      real(dp) :: right(most_rows), solution(most_columns), start(2), springs(2), teeth(2), width(2), more
+      real(dp) :: right(most_rows), solution(most_rows), start(2), springs(2), teeth(2), width(2), more
       integer :: flank, first
 
       springs = 0.0_dp
@@ -158,10 +158,10 @@ contains
                                            (sign_of(flank)*tangent(of_velocity) + rate/step))
          right(first + rows) = 0.0_dp
       end do
-      call substitute(stages*trial%flanks, factors, right, solution)
+      call substitute(trial%flanks, factors, right, solution)
       loads = 0.0_dp
       do flank = 1, trial%flanks
-         loads(:stages, flank) = solution(stages*(flank - 1) + 1:stages*flank)
+         loads(:stages, flank) = solution(rows*(flank - 1) + 1:rows*flank - 1)
       end do
       acceleration = loads(:, 1) - loads(:, 2)
       call weigh(once_rows, acceleration, once)

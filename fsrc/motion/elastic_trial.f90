@@ -14,16 +14,22 @@ module elastic_trial
    implicit none(type, external)
    private
 
-   !> A step under way: values at the nodes, those of the last one twice, which fills registers, of one or two flanks [-].
-   type, public :: trial_t
+   !> What an iteration of Newton's method changes: values at the nodes, those of the last one twice, which fills registers, of one
+   !> or two flanks [-].
+   type, public :: iterate_t
+      !> Loads W, films H, film velocities H'
+      real(dp) :: load(rows, 2) = 0.0_dp, film(rows, 2) = 0.0_dp, velocity(rows, 2) = 0.0_dp
+      !> Loads as they count, with digits of their own. Of films that may pull or keep a part of their load they are less those of
+      !> the springs at the start: a soft tooth is compressed by millions of its film, which the difference of two compressions
+      !> would leave without digits. Of others they are the loads, which may fall to nothing
+      real(dp) :: gain(rows, 2) = 0.0_dp
+   end type iterate_t
+
+   !> A step under way, as much of it as the iterate and its loads decide [-].
+   type, extends(iterate_t), public :: trial_t
       integer :: flanks = 1
-      !> Loads W, films H, film velocities H', and the films at the start
-      real(dp) :: load(rows, 2) = 0.0_dp, film(rows, 2) = 0.0_dp, velocity(rows, 2) = 0.0_dp, start(2) = 0.0_dp
-      !> Loads as they count, with digits of their own, and the compressions that they count with. Of films that may pull or keep a
-      !> part of their load they are less those of the springs at the start, and the compressions none: a soft tooth is compressed by
-      !> millions of its film, which the difference of two compressions would leave without digits. Of others they are the loads,
-      !> which may fall to nothing
-      real(dp) :: gain(rows, 2) = 0.0_dp, counted(2) = 0.0_dp
+      !> Films at the start, and the compressions that loads count with
+      real(dp) :: start(2) = 0.0_dp, counted(2) = 0.0_dp
       !> Compression of flanks that bend by their width, at the start too; how the compression follows the film, as a share of the
       !> gear's displacement, and what a load moves its film by, beside what a damped tooth yields
       real(dp) :: width(rows, 2) = 0.0_dp, start_width(2) = 0.0_dp, follows(rows, 2) = 0.0_dp, compliance(rows, 2) = 0.0_dp
@@ -63,7 +69,7 @@ contains
          load = block%compression(lane, flank, 0)/block%compliance(lane)*block%force_scale(lane)
          if (flank == 2) then
             trial%start(2) = trial%start(2) + trial%start_width(1)
-            trial%start(2) = film_over_gap(contact%film, trial%start(2)*scale, load, trial%start(2)*scale)/scale
+            trial%start(2) = film_over_gap(contact%film, trial%start(2)*scale, load, block%coast_film(lane)*scale)/scale
          end if
          call width_compression(contact%film, trial%start(flank)*scale, load, trial%start_width(flank), by_film, by_load)
          trial%start_width(flank) = trial%start_width(flank)/scale

@@ -3,7 +3,7 @@
 !> of the steps that call them, which films without a state take as well.
 module inner_equations
    use collocation_basis, only: can_extrapolate, highest_terms, last_share
-   use elastic_trial, only: trial_t
+   use elastic_trial, only: iterate_t, trial_t
    use flank_contact, only: flank_contact_t
    use inner_step, only: eliminate_state, follow_film, inner_step_t, step_response_t
    use kinds, only: dp
@@ -112,14 +112,15 @@ contains
    end subroutine inner_matrix
 
    !> Let the states of the films follow a correction of the loads.
-   pure subroutine follow_films(lane, block, share, before, trial, inner, films, largest)
+   pure subroutine follow_films(lane, block, flanks, share, before, trial, inner, films, largest)
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
+      integer, intent(in) :: flanks
       !> Of the correction
       real(dp), intent(in) :: share
       !> Before and after the correction
-      type(trial_t), intent(in) :: before
-      type(trial_t), intent(in) :: trial
+      type(iterate_t), intent(in) :: before
+      type(iterate_t), intent(in) :: trial
       type(lane_inner_t), intent(in) :: inner
       type(inner_step_t), intent(inout) :: films(2)
       !> What the largest change of a number counts as [-]
@@ -128,7 +129,7 @@ contains
       integer :: flank
 
       largest = 0.0_dp
-      do flank = 1, trial%flanks
+      do flank = 1, flanks
          call follow_film(share, (trial%film(:stages, flank) - before%film(:stages, flank))*block%film_scale(lane), &
                           (trial%velocity(:stages, flank) - before%velocity(:stages, flank))*block%velocity_scale(lane), &
                           films(flank), changes)

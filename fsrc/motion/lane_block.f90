@@ -46,8 +46,9 @@ module lane_block
       real(dp) :: retardation(lanes), damped_share(lanes)
       !> and of collocation, polynomials of both loads in the last step, as they count there (module elastic_trial)
       real(dp) :: load_polynomial(lanes, stages, 2)
-      !> and the compressions that the step leads to
-      real(dp) :: next_compression(lanes, 4)
+      !> and the compressions that the step leads to, and the film of a coast flank that bends where the last step ended, near which
+      !> the next one looks for it; 0: not known
+      real(dp) :: next_compression(lanes, 4), coast_film(lanes)
       !> Accuracy [-]
       real(dp) :: accuracy(lanes)
       !> Series of H and of V, Lienard's variable or the velocity; coefficients 0 are the state
@@ -241,6 +242,7 @@ contains
       block%polynomial(lane, :) = 0.0_dp
       block%acceleration(lane) = 0.0_dp
       block%no_load(lane) = .false.
+      block%coast_film(lane) = 0.0_dp
       ! The velocity of a film on a spring is found by Newton's method: from that of the gear, not from where the last period ended.
       if (.not. block%compliance(lane) > 0.0_dp) return
       block%piezo_expansion(:)%film(lane) = 0.0_dp

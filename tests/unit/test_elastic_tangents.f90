@@ -79,12 +79,13 @@ contains
 
    !> Displacements of every number of a state through a period, against central differences of motions that start beside it. Steps
    !> of 1e-4 of what a number counts as leave an error of some 1e-8 of the largest slope, which impacts make a hundred times as
-   !> large, and rounding over the steps of a period one of some 1e-14 of what a number counts as.
+   !> large, and rounding over the steps of a period one of some 1e-14 of what a number counts as: up to 1e-13 of damped flanks that
+   !> bend, of which twelve steps from 0.8e-4 to 1.3e-4 were tried.
    subroutine against_neighbours(checks, name, problem)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       character(*), intent(in) :: name
       type(problem_t), intent(in) :: problem
-      real(dp), parameter :: share = 1.0e-4_dp, agreement = 1.0e-5_dp, floor = 3.0e-14_dp
+      real(dp), parameter :: share = 1.0e-4_dp, agreement = 1.0e-5_dp, floor = 1.2e-13_dp
       type(request_t) :: request
       type(ending_t) :: ending(1)
       type(ending_t), allocatable :: beside(:)
