@@ -22,12 +22,12 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
 # Packages of requirements.txt that every script needs, and by extra those for tables and other formats,
-# and for
-# recordings of a test bench.
+# for recordings of a test bench, and for sounds.
 NEEDED = ("numpy", "matplotlib", "f90nml")
 EXTRAS = {
     "tables": ("pandas", "xarray", "pyarrow", "netCDF4", "scipy", "SALib"),
     "recordings": ("pandas", "scipy", "Pint", "asammdf", "npTDMS", "pyuff", "h5py"),
+    "sound": ("scipy", "mosqito"),
 }
 
 

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from rattle.campaign_result import Campaign, read_campaign
+from rattle.comparison.frame import variants
 from rattle.faults import Fault, InputError, InputWarning, RunError
 from rattle.result import Result, ResultError, read
 from rattle.solve import Gearbox, Range, SceneFailed, Solved, campaign, run, sweep, threshold
@@ -45,5 +46,6 @@ __all__ = [
     "run",
     "sweep",
     "threshold",
+    "variants",
     "version",
 ]

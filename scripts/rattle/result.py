@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rattle.codes import CODES, WORD_ENDING, attributes, quantity_of, word
+from rattle.optional import needed
 from rattle.result_file import CheckedRows, ResultFile, check_length, map_rows
 from rattle.result_header import ResultError, ResultHeader, read_header
 from rattle.summary import read_summary
@@ -88,8 +89,7 @@ class Result(ResultFile):
 
     def to_dataframe(self) -> pandas.DataFrame:
         """The table as a pandas DataFrame; codes also as words, in columns NAME_word."""
-        import pandas
-
+        pandas = needed("pandas")
         frame = pandas.DataFrame(self.table())
         for name in (name for name in self.names if quantity_of(name) in CODES):
             frame[name + WORD_ENDING] = [word(name, code) for code in frame[name]]
@@ -98,8 +98,7 @@ class Result(ResultFile):
 
     def to_xarray(self) -> xarray.Dataset:
         """The table as an xarray Dataset over time, or over the rows where there are no times."""
-        import xarray
-
+        xarray = needed("xarray")
         columns = self.table()
         along = TIME if TIME in self else "row"
         variables = {

@@ -23,7 +23,7 @@ MOST_THREADS = 4
 FEWEST_CHUNKS = 4
 # Chunks of a few rows that are verified at a time.
 SHORT_CHUNKS = 4096
-DERIVED = re.compile(r"^! derived: (\w+)\.(\w+) = ([-+.\dE]+(?:, [-+.\dE]+)*) ?(\S*)", re.MULTILINE)
+DERIVED = re.compile(r"^! derived: (\w+)\.(\w+) = ([-+.\dE]+(?:, [-+.\dE]+)*) ?(.*)", re.MULTILINE)
 # Tasks whose results plot.py draws, with a command of that name.
 DRAWN = ("motion", "film", "sweep", "campaign", "threshold")
 

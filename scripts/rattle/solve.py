@@ -18,6 +18,7 @@ import numpy as np
 from rattle import faults, solver_process
 from rattle.campaign_result import Campaign, read_campaign
 from rattle.faults import InputError, RunError, read_faults
+from rattle.optional import needed
 from rattle.result import Result, read
 from rattle.summary import input_warnings, read_summary
 
@@ -46,6 +47,14 @@ class Solved(NamedTuple):
     result: Result | Campaign | None
     summary: dict[str, Any]
 
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The summary as a pandas DataFrame of one row; that of the result is `result.to_dataframe()`."""
+        return Gearbox({str(self.summary.get("gear", "")).strip(): self}).to_dataframe()
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The summary as an xarray Dataset over its one gear pair."""
+        return Gearbox({str(self.summary.get("gear", "")).strip(): self}).to_xarray()
+
 
 class Gearbox(dict[str, Solved]):
     """What each gear pair of an input left, by its name; `summary` has the table of all, None for sweeps."""
@@ -54,15 +63,15 @@ class Gearbox(dict[str, Solved]):
 
     def to_dataframe(self) -> pandas.DataFrame:
         """The summaries as a pandas DataFrame, a row for each pair."""
-        import pandas
-
+        pandas = needed("pandas")
         frame = pandas.DataFrame.from_dict(
             {gear: solved.summary for gear, solved in self.items()}, orient="index"
         )
-        return frame.drop(columns="gear").rename_axis("gear")
+        return frame.drop(columns="gear", errors="ignore").rename_axis("gear")
 
     def to_xarray(self) -> xarray.Dataset:
         """The summaries as an xarray Dataset over the pairs."""
+        needed("xarray")
         return self.to_dataframe().to_xarray()
 
 

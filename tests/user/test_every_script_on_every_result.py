@@ -30,6 +30,8 @@ CALLS = {
     "classify": ("classify.py", (), ("--output", "o/classes.csv")),
     "compare": ("compare.py", (), ()),
     "compare in Markdown": ("compare.py", ("--markdown",), ()),
+    "listen": ("listen.py", (), ("--output", "o/of.wav", "--seconds", "0.2")),
+    "compare one as a page": ("compare.py", (), ("--output", "o")),
     "report": ("report.py", (), ("--output", "o")),
     **{
         f"plot {name}": ("plot.py", (name,), ("--output", "o", *SMALL))
@@ -51,7 +53,7 @@ CALLS = {
 ALWAYS = {"export", "export as NetCDF", "report"}
 COMPARED = {"compare", "compare in Markdown"}
 SERIES = ALWAYS | {"export a column"}
-MOTION = SERIES | COMPARED | {"plot regime-map", "plot motion", "plot a motion over others"}
+MOTION = SERIES | COMPARED | {"plot regime-map", "plot motion", "plot a motion over others", "listen"}
 CAMPAIGN = ALWAYS | {"plot campaign", "plot a summary", "campaign status", "campaign export"}
 CAMPAIGN |= {"campaign as Parquet", "campaign rerun"}
 WORKING = {
@@ -74,7 +76,7 @@ WORKING = {
     "no_sweep": ALWAYS,
     "no_film": ALWAYS,
     "box.one": MOTION,
-    "box.summary.nml": COMPARED,
+    "box.summary.nml": COMPARED | {"listen"},
     "alone.summary.nml": COMPARED,
     "motion.state": SERIES,
     "motion.log": set(),
@@ -177,6 +179,31 @@ def test_scripts_do_their_work_or_say_why_not(kind, results, tmp_path):
             assert lines[-1].endswith((".", "'-h'")) or "error:" in complaint, told
             assert not any((folder / "o").iterdir()), told
     assert sorted(worked) == sorted(WORKING[kind])
+
+
+MOTION_KINDS = {"motion", "motion.state", "failed", "steady_failed", "never_begun", "interrupted", "box.one"}
+BESIDE_ITSELF = MOTION_KINDS | {"sweep", "map", "unfinished_map", "crossings", "unfinished_crossings"}
+BESIDE_ITSELF |= {"box.summary.nml", "alone.summary.nml"}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("kind", WORKING)
+def test_any_two_results_are_compared_or_it_is_said_why_not(kind, results, tmp_path):
+    place = results / (kind if kind.endswith((".nml", ".state", ".log")) else f"{kind}.rattle")
+    for name, other in (("itself", place), ("a motion", results / "motion.rattle")):
+        output = tmp_path / name.replace(" ", "_")
+        arguments = (place, other, "--output", output)
+        code, said, complaint = called_here("compare.py", *arguments, cwd=tmp_path)
+        told = f"{kind} beside {name}: {code}, {said}, {complaint}"
+        assert "Traceback" not in complaint and "Warning" not in complaint, told
+        compared = kind in (BESIDE_ITSELF if name == "itself" else MOTION_KINDS | {"alone.summary.nml"})
+        assert (code == 0) == compared, told
+        if code == 0:
+            page = (output / "comparison.html").read_text()
+            assert ("The answer does not differ" in page) or name != "itself", told
+            assert (output / "comparison.csv").read_text().count("\n") > 1, told
+        else:
+            assert complaint.count("\n") == 1 and complaint.endswith(".\n") and not output.exists(), told
 
 
 @pytest.mark.long

@@ -1,0 +1,1 @@
+"""Variants side by side: what differs in their inputs, and what differs in the answer."""

@@ -1,0 +1,1 @@
+"""From film forces to a sound: force over a period, transfer to sound pressure, samples, levels."""

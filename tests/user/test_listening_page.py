@@ -1,0 +1,45 @@
+"""Every command of input/LISTENING.md does what the page says."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+from scipy.io import wavfile
+
+from rattle.sound import transfer
+
+
+@pytest.mark.long
+def test_every_command_of_the_page_makes_its_sound(rattle: Path, repository: Path, tmp_path: Path) -> None:
+    page = (repository / "input" / "LISTENING.md").read_text()
+    commands = "".join(re.findall(r"^```sh\n(.*?)^```", page, re.M | re.S))
+    assert commands.count("listen.py") == 2
+    (tmp_path / "build").mkdir()
+    (tmp_path / "build" / "rattle").symlink_to(rattle)
+    for name in ("scripts", ".venv", "input"):
+        (tmp_path / name).symlink_to(repository / name)
+    environment = os.environ | {"OMP_NUM_THREADS": "1", "PYTHONPATH": str(repository / "scripts")}
+    ended = subprocess.run(
+        ["bash", "-e", "-c", commands],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ended.returncode == 0, ended.stderr
+    for name, seconds in (("box.wav", 6.5), ("first.wav", 3.0)):
+        rate, samples = wavfile.read(tmp_path / name)
+        assert (rate, samples.size) == (48000, 48000 * seconds)
+
+
+def test_the_page_has_the_modes_of_the_generic_housing(repository: Path) -> None:
+    page = (repository / "input" / "LISTENING.md").read_text()
+    *most, last = (f"{mode:g}" for mode, _, _ in transfer.MODES)
+    assert f"{', '.join(most)} and {last} Hz" in page
+    assert {damping for _, damping, _ in transfer.MODES} <= {0.02, 0.025, 0.03}
+    assert transfer.GENERIC_GAIN == 1e-4
