@@ -26,8 +26,10 @@ def main() -> int | None:
     places = [page, printed] if printed else [page]
     outputs.check(places, overwrite=options.overwrite, inputs=options.results)
     from rattle.report import report  # needs the kernels, and what is missing of them has a sentence here
+    from rattle.report.limits import read_limits
 
-    text = command.readable(report(options.results, brief=options.brief))
+    limits = read_limits(options.limits) if options.limits else {}
+    text = command.readable(report(options.results, brief=options.brief, limits=limits))
     outputs.write([(page, outputs.text_writer(text))], overwrite=options.overwrite, inputs=options.results)
     print(page)
     return print_page(page, printed, options) if printed else None
@@ -92,6 +94,12 @@ def parse_options() -> argparse.Namespace:
         "--pdf",
         metavar="PLACE",
         help="also print the page, by a browser found here, as FILE.pdf or into a folder",
+    )
+    parser.add_argument(
+        "--limits",
+        type=Path,
+        metavar="FILE.csv",
+        help="film forces that pairs are to keep: columns gear and film_force_rms [N]",
     )
     parser.add_argument("--brief", action="store_true", help="leave the appendix out of what is printed")
     outputs.add_option(parser)

@@ -10,7 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 
-RELATIVE = "\nrelative to the shaft,\non line of action"
+
+def relative(label: str) -> str:
+    """The label of an acceleration that is relative to the shaft."""
+    words = label.replace(r"Acceleration $\ddot{z}$", "Relative acceleration")
+    return words.replace("of $", "of relative $").replace("of the acc", "of the relative acc")
 
 
 def words_of(figure: Figure) -> list[str]:
@@ -32,7 +36,9 @@ def texts_of(axes: Axes) -> list[str]:
 
 def assert_says(figure: Figure, expected: Sequence[str | None]) -> None:
     """The figure has these texts, and no others."""
-    assert words_of(figure) == sorted(text for text in expected if text)
+    found = words_of(figure)
+    wanted = sorted(text for text in expected if text)
+    assert found == wanted, (set(found) ^ set(wanted), found)
 
 
 def film_of(given: Mapping[str, Any]) -> str:

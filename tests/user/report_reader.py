@@ -16,6 +16,7 @@ class Page:
     """What stands on the page outside its figures."""
 
     words: str = ""
+    seen: str = ""  # those that stand before the folds of the appendix
     verdicts: list[str] = field(default_factory=list)
     badges: list[str] = field(default_factory=list)
     rows: list[list[str]] = field(default_factory=list)
@@ -96,6 +97,8 @@ class _Reader(HTMLParser):
     def handle_data(self, data):
         tags = [tag for tag, _ in self.open]
         self.page.words += data
+        if ("section", "appendix") not in self.open:
+            self.page.seen += data
         if "p" in tags or "figcaption" in tags:
             self.page.paragraphs[-1] += data
         if "td" in tags or "th" in tags:

@@ -13,13 +13,14 @@ from result_writer import write_motion, write_result
 from script_calls import call_script
 
 import rattle
-from rattle.figures import motion, style, sweep, tolerance
+from rattle.figures import motion, spectra, style, sweep, tolerance
 
 # Harmonics, and lines between them that fit 16 and 20 periods. The slowest tells the periods apart.
 LINES = {0.25: 0.5, 1.0: 10.0, 2.0: 8.0, 3.0: 3.0, 4.5: 2.0}
 PERIOD = 2.0  # ms
 ACCELERATION = r"Acceleration $\ddot{z}$ [m/s$^2$]"
 AMPLITUDE = r"Amplitude of $\ddot{z}$ [m/s$^2$]"
+LEVEL = r"Level [dB re 10$^{-6}$ m/s$^2$]"
 RATIO = r"Frequency ratio $f/f_\mathrm{exc}$"
 
 
@@ -82,16 +83,14 @@ def test_figure_6_shows_film_in_micrometres_over_force_in_newtons(idle, periods)
         f"Time within the last {words} [ms], from $t = {start:.2f}$ ms",
         "Applied force $F$ [N]",
     )
-    assert film.get_ylim()[0] == 0.0 and film.get_ylim()[1] > 1.4
+    assert film.get_yscale() == "log" and film.get_ylim()[1] > 1.4
     for axes in (film, force):
         assert axes.get_xlim() == pytest.approx((0.0, periods * PERIOD))
         expected = [count * PERIOD for count in range(periods + 1)]
         assert drawn.rules(axes, "x") == pytest.approx(expected)
     low, high = force.get_ylim()
     assert low < 50.0 < 350.0 < high
-    assert film.get_title(loc="left") == (
-        "Film thickness under the applied force\nScene idle, published iso-viscous film"
-    )
+    assert film.get_title(loc="left") == ("Film and applied force: idle, published iso-viscous film")
 
 
 @pytest.mark.parametrize(("number", "law"), [(8, "iso-viscous"), (9, "piezo-viscous")])
@@ -146,30 +145,36 @@ def test_an_overlay_of_the_force_stands_side_by_side(idle, creep):
 @pytest.mark.parametrize("window", [None, 20])
 def test_figure_10_shows_harmonics_and_what_is_between_them(idle, window):
     made = figure(10, idle, window=window)
-    linear, logarithmic = made.axes
-    for axes in (linear, logarithmic):
-        assert_lines(axes, 0, {ratio: a for ratio, a in LINES.items() if ratio % 1.0})
-        assert_lines(axes, 1, {ratio: a for ratio, a in LINES.items() if not ratio % 1.0})
-        places = np.sort(np.concatenate([found[0] for found in drawn.bars(axes)]))
-        bins = places * (window or 16)
-        assert bins == pytest.approx(np.round(bins))
-        assert axes.get_ylabel() == AMPLITUDE
-        assert axes.get_xlim() == (0.0, 10.5)
-    assert logarithmic.get_xlabel() == RATIO
-    assert (linear.get_yscale(), logarithmic.get_yscale()) == ("linear", "log")
-    assert linear.get_ylim() == pytest.approx((0.0, 10.8))
-    assert logarithmic.get_ylim() == pytest.approx((1e-4, 30.0))
-    assert drawn.rules(logarithmic, "y") == pytest.approx([0.1])
+    (axes,) = made.axes
+    assert_lines(axes, 0, {ratio: a for ratio, a in LINES.items() if ratio % 1.0})
+    assert_lines(axes, 1, {ratio: a for ratio, a in LINES.items() if not ratio % 1.0})
+    places = np.sort(np.concatenate([found[0] for found in drawn.bars(axes)]))
+    bins = places * (window or 16)
+    assert bins == pytest.approx(np.round(bins))
+    assert drawn.labels(axes) == (RATIO, LEVEL)
+    assert axes.get_xlim() == (0.0, 10.5)
+    # 20 dB below the line of what counts, which is 1 % of 10 m/s2.
+    assert axes.get_yscale() == "log" and axes.get_ylim() == pytest.approx((0.01, 30.0))
+    ticks = dict(zip(axes.get_yticks(), (text.get_text() for text in axes.get_yticklabels()), strict=True))
+    assert {round(20.0 * np.log10(place / 1e-6)): words for place, words in ticks.items()} == {
+        level: str(level) for level in (80, 100, 120, 140)
+    }
+    assert drawn.rules(axes, "y") == pytest.approx([0.1])
     assert drawn.legend_words(made) == [
         "harmonics of 500 Hz",
         "between the harmonics",
         "1 % of the first harmonic",
     ]
-    assert (
-        linear.get_title(loc="left")
-        .splitlines()[1]
-        .startswith("Scene idle, published iso-viscous film; 3 harmonics, class ")
+    assert axes.get_title(loc="left") == "Spectrum of the acceleration: idle, published iso-viscous film"
+
+
+def test_figure_10_as_amplitudes_is_that_of_the_paper(idle):
+    ((_, made),) = motion.single_figures(
+        [rattle.read(idle)], [10], motion.Extent(4, None, spectra.View(decibels=False))
     )
+    (axes,) = made.axes
+    assert axes.get_yscale() == "linear" and axes.get_ylim() == pytest.approx((0.0, 10.8))
+    assert axes.get_ylabel() == AMPLITUDE
 
 
 @pytest.mark.parametrize(
@@ -178,8 +183,8 @@ def test_figure_10_shows_harmonics_and_what_is_between_them(idle, window):
 )
 def test_figure_10_ends_behind_the_last_line_that_counts_or_is_near(tmp_path, last, amplitude, end):
     path = write_motion(tmp_path / "a.rattle", lines={1.0: 5.0, last: amplitude})
-    linear, _ = figure(10, path).axes
-    assert linear.get_xlim() == (0.0, end)
+    (axes,) = figure(10, path).axes
+    assert axes.get_xlim() == (0.0, end)
 
 
 def test_spectra_of_several_runs_end_at_the_same_frequency(tmp_path, idle):
@@ -189,13 +194,13 @@ def test_spectra_of_several_runs_end_at_the_same_frequency(tmp_path, idle):
     with style.house_style():
         made = dict(motion.single_figures(results, [7, 10], motion.Extent(4, None)))
     ends = {stem: [axes.get_xlim() for axes in made[stem].axes] for stem in made if "10a" in stem}
-    assert len(ends) == 2 and all(limits == [(0.0, 14.5)] * 2 for limits in ends.values())
+    assert len(ends) == 2 and all(limits == [(0.0, 14.5)] for limits in ends.values())
 
 
 def test_an_overlay_of_spectra_stands_side_by_side(idle, creep):
-    for axes in figure(10, idle, creep).axes:
-        assert_lines(axes, 0, LINES, -0.08)
-        assert_lines(axes, 1, {0.25: 0.2, 1.0: 4.0, 2.0: 1.0}, 0.08)
+    (axes,) = figure(10, idle, creep).axes
+    assert_lines(axes, 0, LINES, -0.08)
+    assert_lines(axes, 1, {0.25: 0.2, 1.0: 4.0, 2.0: 1.0}, 0.08)
     assert axes.get_xlabel() == f"{RATIO}; runs side by side"
 
 
@@ -211,17 +216,16 @@ def test_spectra_under_several_harmonics_count_harmonics_where_there_is_no_shaft
     places = {note.get_text(): note.xy for note in force.texts}
     assert places["150 N\nat 1000 Hz"] == pytest.approx((2.0, 150.0))
     made = figure(10, path)
-    linear, logarithmic = made.axes
-    for axes in (linear, logarithmic):
-        assert_lines(axes, 1, {ratio: lines[ratio] for ratio in (1.0, 3.0)})
-        assert_lines(axes, 2, {ratio: lines[ratio] for ratio in (2.0, 12.0, 50.0)})
-    assert linear.get_xlim() == (0.0, 50.5)
-    assert logarithmic.get_xlabel() == "Harmonic, multiple of 500 Hz"
+    (axes,) = made.axes
+    assert_lines(axes, 1, {ratio: lines[ratio] for ratio in (1.0, 3.0)})
+    assert_lines(axes, 2, {ratio: lines[ratio] for ratio in (2.0, 12.0, 50.0)})
+    assert axes.get_xlim() == (0.0, 50.5)
+    assert axes.get_xlabel() == "Harmonic, multiple of 500 Hz"
     # The largest line at a harmonic of the force is what the others are held against.
-    assert drawn.rules(logarithmic, "y") == pytest.approx([0.05])
+    assert drawn.rules(axes, "y") == pytest.approx([0.05])
     assert drawn.legend_words(made)[1:] == ["at harmonics of the force", "1 % of harmonic 2"]
     both = figure(10, path, write_motion(tmp_path / "paper.rattle", lines={1.0: 5.0})).axes
-    assert both[1].get_xlabel() == "Harmonic, multiple of 500 Hz; runs side by side"
+    assert both[0].get_xlabel() == "Harmonic, multiple of 500 Hz; runs side by side"
 
 
 # --- loose tolerances ----------------------------------------------------------------------------------
@@ -337,11 +341,11 @@ def test_a_sweep_shows_both_ways_and_leaves_gaps(first_column, tmp_path):
         half = len(ways) // 2
         assert set(ways[:half]) == {style.RUN_COLOURS[0].lower()}
         assert set(ways[half:]) == {style.RUN_COLOURS[1].lower()}
-    assert [axes.get_ylabel().replace("\n", " ") for axes in made.axes] == [
-        r"Film, least and largest [$\mathrm{\mu}$m]",
-        r"Largest $|\ddot{z}|$ [m/s$^2$]",
-        r"Period [$1/f_\mathrm{exc}$]",
-        "Largest Floquet multiplier",
+    assert [axes.get_ylabel() for axes in made.axes] == [
+        r"Film [$\mathrm{\mu}$m]",
+        r"Peak $|\ddot{z}|$ [m/s$^2$]",
+        "Period [$1/f$]",
+        "Floquet multiplier",
     ]
     assert multiplier.get_xlabel() == r"Excitation frequency $f_\mathrm{exc}$ [Hz]"
     assert film.get_yscale() == "log"

@@ -113,6 +113,8 @@ def test_kinds_of_change_are_curves_of_their_own(tmp_path):
         ([1.0], [91.0]),
         ([2.0], [71.0]),
         ([2.0], [71.0]),
+        # Where lines end within the picture, and those of one point.
+        ([2.0, 8.0, 1.0, 2.0], [31.0, 21.0, 91.0, 71.0]),
     ]
     lines = [line for line in lines if line[0].size]
     assert len(lines) == len(expected)
@@ -124,12 +126,14 @@ def test_kinds_of_change_are_curves_of_their_own(tmp_path):
         "creep to idle (1)",
         "creep to film lost (1)",
         "from lower to upper",
+        "end: the motion changes kind",
+        "not quiet here",
         "not verified (2)",
         "no change (1)",
     ]
     assert made.axes[0].get_xlabel() == "Entrainment speed [m/s]"
-    assert made.axes[0].get_ylabel() == "Force amplitude [N]"
-    assert "change of class" in made.axes[0].get_title(loc="left")
+    assert made.axes[0].get_ylabel() == "Force amplitude [N], searched from 5 to 100 N"
+    assert "Change of class" in made.axes[0].get_title(loc="left")
 
 
 def test_the_axis_shows_the_changes_where_they_lie_close_together(tmp_path):
@@ -138,7 +142,7 @@ def test_the_axis_shows_the_changes_where_they_lie_close_together(tmp_path):
     near = figure(written(tmp_path / "near.rattle", [ROWS[0], ROWS[2], ROWS[5]])).axes[0]
     low, high = near.get_ylim()  # of 21, 31 and 41 N
     assert 5.0 < low < 20.0 and 42.0 < high < 60.0
-    assert near.get_title(loc="left").endswith("\nSearched from 5 to 100 N")
+    assert near.get_ylabel().endswith(", searched from 5 to 100 N")
 
 
 def test_bars_that_hide_behind_their_marks_have_no_legend(tmp_path):
@@ -163,10 +167,21 @@ def test_neighbours_with_other_counts_of_a_change_are_not_joined(tmp_path):
     assert joined[:3] == [[41.0], [31.0], [71.0]] and drawn.legend_words(made)[0] == "quiet to creep (4)"
 
 
+def test_the_side_that_rattles_is_shaded(tmp_path):
+    """Above a change from quiet to creep, between its ends where it is quiet again, nowhere where quiet."""
+    back = [2.0, 2.0, 2.0, 50.0, 52.0, 2.0, 1.0, 1.0, 1.0, 1.0, 1.0]
+    calm = [3.0, 4.0, 0.0, 5.0, 100.0, 1.0, 1.0, 1.0, 1.0, np.nan, np.nan]
+    made = figure(written(tmp_path / "edge.rattle", [ROWS[0], ROWS[2], back, calm]))
+    fills = [area for area in made.axes[0].collections if "Fill" in type(area).__name__]
+    corners = [area.get_paths()[0].vertices for area in fills]
+    spans = {(*area.min(axis=0), *area.max(axis=0)) for area in corners}
+    assert spans == {(1.0, 41.0, 1.5, 100.0), (1.5, 31.0, 3.0, 51.0)}
+
+
 def test_one_class_against_all_others(tmp_path):
     made = figure(written(tmp_path / "edge.rattle", ROWS[:3], criterion="quiet"))
     assert drawn.legend_words(made)[0] == "quiet to another class (2)"
-    assert "change into or out of quiet" in made.axes[0].get_title(loc="left")
+    assert "Change into or out of quiet" in made.axes[0].get_title(loc="left")
 
 
 def test_curves_lie_over_the_map_that_they_divide(tmp_path):
@@ -192,12 +207,16 @@ def test_two_keys_are_curves_if_few_and_a_surface_if_many(tmp_path):
     for mass, (x, y) in enumerate(lines, 1):
         np.testing.assert_array_equal(x, np.arange(1.0, 11.0))
         np.testing.assert_array_equal(y, 10.0 * x + mass + 1.0)
-    assert drawn.legend_words(made) == ["mass 1 kg", "mass 2 kg", "mass 3 kg", "from lower to upper"]
+    assert drawn.legend_words(made) == [
+        *("mass 1 kg", "mass 2 kg", "mass 3 kg"),
+        *("not quiet here", "from lower to upper"),
+    ]
     made = figure(written(tmp_path / "many.rattle", PLANE, axes))
     mesh = next(one for one in made.axes[0].collections if one.get_array() is not None)
     values = np.asarray(mesh.get_array()).reshape(9, 10)
     np.testing.assert_array_equal(values, [[10.0 * x + y + 1.0 for x in range(1, 11)] for y in range(1, 10)])
-    assert [one.get_ylabel() for one in made.axes] == ["Mass [kg]", "Force amplitude [N]"]
+    searched = "Force amplitude [N], searched from 5 to 100 N"
+    assert [one.get_ylabel() for one in made.axes] == ["Mass [kg]", searched]
     gone = figure(written(tmp_path / "gone.rattle", PLANE, axes), crossing=2)
     assert drawn.legend_words(gone) == ["no change (90)"]
 
@@ -271,6 +290,8 @@ def test_sides_of_a_level_are_named_for_what_they_are(tmp_path):
         "below 100 N to at least 100 N (1)",
         "at least 100 N to below 100 N (1)",
         "from lower to upper",
+        "end: the motion changes kind",
+        "at least 100 N here",
         "not verified (1)",
     ]
 
@@ -400,7 +421,8 @@ def test_between_the_ends_of_both_sides_either_is_possible(tmp_path):
     result = written_with_ends(tmp_path / "edge.rattle", ends, [40.0] * 4)
     assert thresholds(result).either.tolist() == [True, True, False, False]
     made = figure(result)
-    (band,) = (area for area in made.axes[0].collections if area.__class__.__name__.startswith("Fill"))
+    areas = [area for area in made.axes[0].collections if area.__class__.__name__.startswith("Fill")]
+    (band,) = (area for area in areas if area.get_alpha() == 0.16)
     corners = np.concatenate([path.vertices for path in band.get_paths()])
     assert {(1.0, 20.0), (1.0, 60.0), (2.0, 30.0), (2.0, 70.0)} <= set(map(tuple, corners))
     assert corners[:, 0].max() == 2.0

@@ -113,13 +113,15 @@ def test_all_words_stand_within_the_figure_and_can_be_read(figure, width):
         assert one.y0 > other.y1, "labels of panels overlap"
 
 
-def test_no_word_is_lost_in_a_column(idle):
+def test_no_word_is_lost_in_a_column_but_the_film_of_a_title(idle):
     with style.house_style():
         wide = spectra.draw_acceleration([idle], ["idle"], None)
         words = drawn.all_words(wide).split()
         narrow = fitted(spectra.draw_acceleration([idle], ["idle"], None), width=80.0)
+    assert wide.axes[0].get_title(loc="left").endswith(": idle, published iso-viscous film")
+    assert narrow.axes[0].get_title(loc="left") == "Spectrum of the acceleration: idle"  # one line
     for word in words:
-        if word.isalpha():
+        if word.isalpha() and word not in ("published", "film"):
             assert word in drawn.all_words(narrow).split(), word
 
 
@@ -159,10 +161,14 @@ def test_without_titles_only_what_tells_panels_apart_is_left(idle):
 
 
 def test_limits_are_those_asked_for(idle):
-    figure = fitted(spectra.draw_acceleration([idle], ["idle"], None), xlim=(0.5, 4.5), ylim=(-1.0, 3.0))
-    linear, logarithmic = figure.axes
-    assert linear.get_xlim() == logarithmic.get_xlim() == (0.5, 4.5)
-    assert linear.get_ylim() == (-1.0, 3.0) != logarithmic.get_ylim()
+    view = spectra.View(decibels=False)
+    figure = fitted(
+        spectra.draw_acceleration([idle], ["idle"], None, view), xlim=(0.5, 4.5), ylim=(-1.0, 3.0)
+    )
+    (axes,) = figure.axes
+    assert axes.get_xlim() == (0.5, 4.5) and axes.get_ylim() == (-1.0, 3.0)
+    two = fitted(histories.draw_film_and_force([idle], ["idle"], 4), ylim=(0.1, 3.0))
+    assert two.axes[0].get_ylim() == (0.1, 3.0) != two.axes[1].get_ylim()
 
 
 def test_limits_that_a_logarithmic_axis_cannot_have_are_refused(made):
@@ -257,7 +263,7 @@ def test_where_there_is_a_shaft_lines_stand_at_engine_orders(tmp_path):
     np.testing.assert_allclose(driven, [[8.0, 24.0], [9.0, 2.0]], rtol=1e-9)
     assert drawn.legend_words(alone) == [
         "harmonics of 500 Hz",
-        "at harmonics of the force",
+        "orders of the force: 8, 24",
         "1 % of the line of engine order 8",
     ]
     assert drawn.legend_words(asked)[-1] == "1 % of harmonic 4"

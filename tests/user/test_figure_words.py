@@ -9,7 +9,7 @@ from pathlib import Path
 import campaign_writer
 import numpy as np
 import pytest
-from figure_words import RELATIVE, assert_says, film_of, words_of
+from figure_words import assert_says, film_of, relative, words_of
 from outcomes import series_in
 from test_drawn_thresholds import ROWS, level_result, written
 from told import SPOKEN
@@ -56,11 +56,10 @@ class Motion:
         self.frequency = self.told.get("frequency", self.given["load"].get("frequency"))
         speed = self.given.get("shaft", {}).get("speed_rpm")
         self.order = None if speed is None else self.frequency / (speed / 60.0)
-        self.relative = RELATIVE if "gear" in self.given else ""
         self.forced = "force_amplitudes" in self.given["load"]
 
-    def title(self, subject: str, *more: str) -> str:
-        return "\n".join([subject, f"Scene {self.told['name']}, {film_of(self.given)}", *filter(None, more)])
+    def title(self, subject: str) -> str:
+        return f"{subject}: {self.told['name']}, {film_of(self.given)}"
 
     def time(self) -> str:
         rows = self.result["time"]
@@ -74,6 +73,17 @@ class Motion:
         least, largest = (scale * self.told[f"{name}_{end}"] for end in ("minimum", "maximum"))
         if not self.told["sampling_sufficient"]:
             return "Series of too few samples; what lies between them is not known"
+        samples = self.result[{"film": "film_thickness"}.get(name, name)][
+            -PERIODS * self.result.samples_per_period :
+        ]
+        samples = scale * samples.reshape(PERIODS, -1)
+        missed = [least - samples.min(axis=1), largest - samples.max(axis=1)]
+        whole = largest - least
+        if name == "film":  # its axis is logarithmic
+            missed = [np.log(samples.min(axis=1) / least), np.log(largest / samples.max(axis=1))]
+            whole = np.log(largest / least)
+        if np.abs(missed).max() <= 0.01 * whole:
+            return ""
         return f"Series of too few samples; between them {least:.4g} to {largest:.4g} {unit}, not all drawn"
 
     def axis_of_frequency(self) -> str:
@@ -94,20 +104,23 @@ def test_words_of_histories(solved, name):
     assert_says(
         histories.draw_film_and_force(runs, labels, PERIODS),
         [
-            motion.title("Film thickness under the applied force", film),
+            motion.title("Film and applied force"),
+            film,
             r"Film thickness $h$ [$\mathrm{\mu}$m]",
             "Applied force $F$ [N]",
             motion.time(),
         ],
     )
-    label = rf"Acceleration $\ddot{{z}}${motion.relative} [m/s$^2$]"
+    label = r"Acceleration $\ddot{z}$ [m/s$^2$]"
+    label = relative(label) if "gear" in motion.given else label
     made = histories.draw_acceleration(runs, labels, PERIODS)
     near = len(made.axes) == 2  # the largest impact, drawn beside
     assert near == (name == "loose_gear")
     assert_says(
         made,
         [
-            motion.title("Acceleration of the film surface", motion.coarse("acceleration", "m/s$^2$", 1.0)),
+            motion.title("Acceleration"),
+            motion.coarse("acceleration", "m/s$^2$", 1.0),
             motion.time(),
             label,
             *([label, "The largest impact, on the same axis of time [ms]"] if near else []),
@@ -143,31 +156,28 @@ def test_words_of_spectra(solved, name):
         ]
     )
     by_samples = not told["sampling_sufficient"]
-    bound = "at least " if told["harmonic_count_is_bound"] else ""
-    name = SPOKEN.get(told["rattle_class"], told["rattle_class"])
-    verdict = f"{bound}{told['harmonic_count']} harmonics, class {name}"
-    if by_samples:
-        verdict = "too few samples\nThe harmonics are those of the samples, not of the motion"
-    elif told["series_coarse"]:
-        samples = f"of {told['samples_per_period']} samples a period"
-        source = "integrals over the steps" if told["harmonics_by_integrals"] else samples
-        verdict += f"\nSeries of too few samples; harmonics of the summary, {source}"
     share = 100.0 * motion.given["spectrum"]["harmonic_threshold"]
     reference = "the first harmonic" if not motion.forced else f"harmonic {largest_line(motion, lines)}"
-    known = not (motion.forced and told["series_coarse"])
-    amplitude = rf"Amplitude of $\ddot{{z}}${motion.relative} [m/s$^2$]"
+    subject = "Spectrum of the acceleration"
+    level = r"Level [dB re 10$^{-6}$ m/s$^2$]"
+    driven = "at harmonics of the force"
+    if motion.order is not None and len(lines) <= 8:
+        driven = f"orders of the force: {', '.join(f'{line * motion.order:g}' for line in sorted(lines))}"
+        reference = f"the line of engine order {largest_line(motion, lines) * motion.order:.4g}"
+    elif motion.order is not None and motion.forced:
+        reference = f"the line of engine order {largest_line(motion, lines) * motion.order:.4g}"
     between = told.get("orbit_period", 1) > 1 or by_samples
     assert_says(
         spectra.draw_acceleration(runs, labels, None),
         [
-            f"{motion.title('Spectrum of the acceleration')}; {verdict}",
+            motion.title(relative(subject) if "gear" in motion.given else subject),
             motion.axis_of_frequency(),
-            amplitude,
-            amplitude,
+            level,
+            "too few samples: these harmonics are those of the samples" if by_samples else None,
             f"harmonics of {motion.frequency:.4g} Hz",
-            "at harmonics of the force" if motion.forced else None,
+            driven if motion.forced else None,
             "between the harmonics" if between else None,
-            f"{share:.3g} % of {reference}" if known else None,
+            f"{share:.3g} % of {reference}",
         ],
     )
 
@@ -194,20 +204,20 @@ def test_words_of_a_sweep(solved, run, repository, tmp_path, of_gear):
         assert ended.returncode == 0, ended.stderr
         path = next(tmp_path.glob("*.rattle"))
     result = rattle.read(path)
-    relative = RELATIVE if of_gear else ""
+    peak = r"Peak $|\ddot{z}|$ [m/s$^2$]"
     key = "Shaft speed [1/min]" if of_gear else "Stiffness of the teeth $k$ [N/m]"
     both = (result["direction"] < 0.0).any()
     limit = result.input["spectrum"]["idle_harmonics"]
     assert_says(
         sweep.draw(result, panels=tuple(sweep.PANELS), marks=[(850.0, "here")]),
         [
-            f"Steady motions along a sweep\nScene {result.scene_name}, {film_of(result.input)}",
-            "Film, least and\nlargest [$\\mathrm{\\mu}$m]",
-            f"Largest $|\\ddot{{z}}|${relative}\n[m/s$^2$]",
+            f"Steady motions: {result.scene_name}, {film_of(result.input)}",
+            "Film [$\\mathrm{\\mu}$m]",
+            peak.replace("Peak", "Relative peak") if of_gear else peak,
             "Harmonics",
             f"idle from {limit} harmonics on",
-            "Period\n[$1/f_\\mathrm{exc}$]",
-            "Largest Floquet\nmultiplier",
+            "Period [$1/f$]",
+            "Floquet multiplier",
             key,
             "here",
             "increasing",
@@ -264,9 +274,8 @@ def scenes_of(rows: rattle.Campaign) -> str:
 def test_words_of_a_map(tmp_path, column, of_gear, undone):
     rows = campaign(tmp_path, of_gear=of_gear, undone=undone)
     section = new_section(rows, rows.varied, {})
-    relative = RELATIVE if of_gear else ""
     bar = {
-        "acceleration_maximum": f"Acceleration maximum{relative} [m/s$^2$]",
+        "acceleration_maximum": f"{'Relative acceleration' if of_gear else 'Acceleration'} maximum [m/s$^2$]",
         "film_minimum": "Film minimum [\N{MICRO SIGN}m]",
     }
     title = column.replace("_", " ").capitalize()
@@ -274,7 +283,7 @@ def test_words_of_a_map(tmp_path, column, of_gear, undone):
     assert_says(
         made,
         [
-            f"{title}, campaign map, {scenes_of(rows)}",
+            f"{title}: map",
             "Force amplitude [N]",
             "Entrainment speed [m/s]",
             bar.get(column),
@@ -299,9 +308,8 @@ def test_words_of_a_slice(tmp_path):
     assert_says(
         campaign_slice.draw(section, ["acceleration_maximum", "film_minimum"]),
         [
-            f"Along force amplitude, campaign map, {rows.row_count} scenes\n"
-            f"entrainment speed = {speed:.4g} m/s",
-            f"Acceleration maximum{RELATIVE}\n[m/s$^2$]",
+            f"Along force amplitude: map, entrainment speed = {speed:.4g} m/s",
+            "Relative acceleration maximum\n[m/s$^2$]",
             "Film minimum\n[\N{MICRO SIGN}m]",
             "Force amplitude [N]",
             *(SPOKEN.get(name, name) for name in classes),
@@ -336,7 +344,7 @@ def test_words_of_the_page_on_a_campaign(tmp_path):
         "force amplitude: 20 to 400 N (linear, 20 values)",
         "entrainment speed: 0.5 to 5 m/s (logarithmic, 15 values)",
         "Published iso-viscous film;  rattle 0.1.0",
-        "Acceleration relative to the shaft, on line of action",
+        "Acceleration relative to the shaft, on the line of action",
     ]
     classes = rows["rattle_class"][rows.done]
     counts = [int((classes == code).sum()) for code in codes.CLASSES] + [int(np.isnan(classes).sum())]
@@ -378,10 +386,11 @@ def test_words_of_thresholds(tmp_path):
     assert_says(
         threshold.draw(thresholds(result)),
         [
-            "Force amplitude: change of class\nScene edge, published iso-viscous film\n"
-            "Searched from 5 to 100 N",
+            "Change of class: edge",
             "Entrainment speed [m/s]",
-            "Force amplitude [N]",
+            "Force amplitude [N], searched from 5 to 100 N",
+            "not quiet here",
+            "end: the motion changes kind",
             *(f"{kind} ({count})" for kind, count in kinds.items()),
             "from lower to upper",
             f"not verified ({unsure})",
@@ -415,10 +424,11 @@ def test_words_of_a_level(tmp_path):
     assert kinds and all("below" in kind and "at least" in kind for kind in kinds)
     texts = words_of(threshold.draw(thresholds(result)))
     assert {f"{kind} ({count})" for kind, count in kinds.items()} <= set(texts)
-    (title,) = (text for text in texts if "Searched from" in text)
+    (label,) = (text for text in texts if "searched from" in text)
     first, last = (float(result.value("threshold", end)) for end in ("first", "last"))
-    assert f": {quantity.replace('_', ' ')} passes {level:g} {unit}\n" in title
-    assert title.endswith(f"Searched from {first:.4g} to {last:.4g} {result.units['lower']}")
+    title = f"{quantity.replace('_', ' ').capitalize()} passes {level:g} {unit}: {result.scene_name}"
+    assert title in texts and f"at least {level:g} {unit} here" in texts
+    assert label.endswith(f", searched from {first:.4g} to {last:.4g} {result.units['lower']}")
 
 
 @pytest.mark.parametrize("code", codes.CLASSES)
@@ -428,5 +438,5 @@ def test_a_class_against_all_others_is_called_by_its_name(tmp_path, code):
     result = written(tmp_path / "edge.rattle", rows=rows, criterion=name)
     texts = words_of(threshold.draw(thresholds(result)))
     words = SPOKEN.get(name, name)
-    assert any(f"change into or out of {words}\n" in text for text in texts)
+    assert f"Change into or out of {words}: edge" in texts and f"{words} here" in texts
     assert f"{words} to another class ({len(rows)})" in texts

@@ -8,7 +8,8 @@ import campaign_writer
 import numpy as np
 import pytest
 from campaign_writer import Key
-from figure_words import RELATIVE, assert_says, film_of, words_of
+from figure_words import assert_says, film_of, words_of
+from figure_words import relative as relative_label
 from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
 from test_drawn_thresholds import PLANE, ROWS, written
@@ -24,7 +25,7 @@ from rattle.thresholds import thresholds
 PERIODS = 3
 TIME = f"Time within the last {PERIODS} excitation periods [ms]"
 ACCELERATION = r"Acceleration $\ddot{z}$ [m/s$^2$]"
-AMPLITUDE = r"Amplitude of $\ddot{z}$ [m/s$^2$]"
+LEVEL = r"Level [dB re 10$^{-6}$ m/s$^2$]"
 MASS = ("kinematics.entrainment_speed", "load.mass")
 
 
@@ -46,12 +47,12 @@ def solved(run, repository, tmp_path_factory) -> dict[str, Path]:
 
 def relative(label: str, results) -> str:
     gears = any("gear" in result.input for result in results)
-    return label.replace(" [", f"{RELATIVE} [") if gears else label
+    return relative_label(label) if gears else label
 
 
 def titles(subject: str, results) -> str:
     films = sorted({film_of(result.input) for result in results})
-    return f"{subject}\n{len(results)} runs, {' and '.join(films)}"
+    return f"{subject}: {len(results)} runs, {' and '.join(films)}"
 
 
 def runs_named(results) -> list[str]:
@@ -75,7 +76,7 @@ def test_words_of_histories_of_several(solved, names):
     assert_says(
         histories.draw_film_and_force(results, labels, PERIODS),
         [
-            titles("Film thickness under the applied force", results),
+            titles("Film and applied force", results),
             r"Film thickness $h$ [$\mathrm{\mu}$m]",
             "Applied force $F$ [N]",
             TIME,
@@ -85,7 +86,7 @@ def test_words_of_histories_of_several(solved, names):
     assert_says(
         histories.draw_acceleration(results, labels, PERIODS),
         [
-            titles("Acceleration of the film surface", results),
+            titles("Acceleration", results),
             relative(ACCELERATION, results),
             TIME,
             *runs_named(results),
@@ -118,14 +119,12 @@ def test_words_of_spectra_of_several(solved, names):
     )
     told = [rattle.read_summary(result.path.with_suffix(".summary.nml")) for result in results]
     by_summary = [one["series_coarse"] and one["sampling_sufficient"] for one in told]
-    amplitude = relative(AMPLITUDE, results)
     assert_says(
         spectra.draw_acceleration(results, labels, None),
         [
-            titles("Spectrum of the acceleration", results),
+            titles(relative("Spectrum of the acceleration", results), results),
             axis,
-            amplitude,
-            amplitude,
+            LEVEL,
             *(
                 f"{result.scene_name}, by its summary" if better else name
                 for result, better, name in zip(results, by_summary, runs_named(results), strict=True)
@@ -144,8 +143,8 @@ def test_words_of_several_sweeps(solved, run, repository, tmp_path):
     assert_says(
         sweep.draw(*results, panels=("film", "harmonics")),
         [
-            "Steady motions along a sweep\n2 sweeps",
-            "Film, least and\nlargest [$\\mathrm{\\mu}$m]",
+            "Steady motions: 2 sweeps",
+            "Film [$\\mathrm{\\mu}$m]",
             "Harmonics",
             f"idle from {results[0].input['spectrum']['idle_harmonics']} harmonics on",
             "Stiffness of the teeth $k$ [N/m]",
@@ -162,15 +161,13 @@ def test_words_of_two_flanks(solved):
     periods = told["orbit_period"]
     last = "the last excitation period" if periods == 1 else f"the last {periods} excitation periods"
     start = result["time"][-1] - periods / result.frequency
-    title = f"Both flanks\nScene {told['name']}, {film_of(result.input)}"
-    if told["series_coarse"]:
-        title += "\nSeries of too few samples; the extremes between them are drawn in every period"
+    title = f"Both flanks: {told['name']}, {film_of(result.input)}"
     found = words_of(histories.draw_flanks(result, result.scene_name))
     assert found == sorted(
         [
             title,
             r"Film thickness $h$ [$\mathrm{\mu}$m]",
-            "Load of the film $W$ [N]",
+            "Film load $W$ [N]",
             ACCELERATION,
             f"Time within {last} [ms], from $t = {1e3 * start:.2f}$ ms",
             "drive flank",
@@ -207,13 +204,15 @@ def test_words_of_gear_pairs(box, narrow):
     shown = {SPOKEN.get(name, name) for name in codes.CLASSES.values()}
     if ((rows["verified"] == 0.0) & (rows["rattle_class"] != 6.0)).any():
         shown.add("not verified")
+    if "motions" in rows and (rows["motions"] > 1.0).any():
+        shown.add("several motions, that from rest drawn")
     shown |= {
         words
         for code, words in ((3.0, "film lost"), (4.0, "no rigid film"))
         if (rows["status"] == code).any()
     }
     expected = [*rows.gears, *([x] * (2 if narrow else 1)), *([y] * (4 if narrow else 2))]
-    expected.append(f"Acceleration maximum{RELATIVE} [m/s$^2$]")
+    expected.append("Relative acceleration maximum [m/s$^2$]")
     assert_says(made, [*expected, *shown])
 
 
@@ -255,11 +254,12 @@ def test_labels_of_the_contours_of_a_map(tmp_path):
 # --- thresholds over several keys ----------------------------------------------------------------------
 
 
-def title_of_edge(crossing: str = "", held: str = "") -> str:
-    change = f"{crossing} change of class" if crossing else "change of class"
-    return f"Force amplitude: {change}\nScene edge, published iso-viscous film\nSearched from 5 to 100 N" + (
-        f"\n{held}" if held else ""
-    )
+def title_of_edge(ordinal: str = "", held: str = "") -> str:
+    what = f"{ordinal} change of class".strip().capitalize()
+    return ", ".join(filter(None, (f"{what}: edge", held)))
+
+
+SEARCHED = "Force amplitude [N], searched from 5 to 100 N"
 
 
 def test_words_of_threshold_curves(tmp_path):
@@ -269,9 +269,10 @@ def test_words_of_threshold_curves(tmp_path):
     assert_says(
         made,
         [
-            title_of_edge("first"),
+            title_of_edge(),
             "Entrainment speed [m/s]",
-            "Force amplitude [N]",
+            SEARCHED,
+            "not quiet here",
             *(f"mass {mass:g} kg" for mass in np.unique([row[2] for row in rows])),
             "from lower to upper",
             "not verified",
@@ -296,7 +297,7 @@ def test_words_of_a_threshold_surface(tmp_path, crossing, ordinal):
             title_of_edge(ordinal),
             "Entrainment speed [m/s]",
             "Mass [kg]",
-            "Force amplitude [N]",
+            SEARCHED,
             f"no change ({without})" if without else None,
             f"not verified ({unsure})" if unsure else None,
             *(text.get_text() for text in labels),
@@ -319,7 +320,8 @@ def test_words_of_a_threshold_at_a_held_key(tmp_path):
         [
             title_of_edge(held="mass = 4 kg"),
             "Entrainment speed [m/s]",
-            "Force amplitude [N]",
+            SEARCHED,
+            "not quiet here",
             f"quiet to creep ({count})",
             "from lower to upper",
         ],
@@ -346,6 +348,7 @@ def test_words_of_thresholds_over_a_map(tmp_path):
     assert set(legend) - classes == {
         *(f"{kind} ({kinds.count(kind)})" for kind in kinds),
         "from lower to upper",
+        "end: the motion changes kind",
         f"not verified ({unsure})",
         f"no change ({sum(row[2] == 0.0 for row in ROWS)})",
         *([f"not verified ({100.0 * doubt / rows.row_count:.1f} %)"] if doubt else []),

@@ -38,6 +38,8 @@ LIMIT_COLOUR = "#00664C"
 # Ticks stand on the side where the film law does not hold.
 LIMIT_LOOK = [patheffects.withTickedStroke(angle=90, spacing=7, length=0.6)]
 SHORTEST_LABELLED = 60.0  # pixels
+NO_SEPARATION = 0  # code of the verdict
+ROOM_FOR_WORDS = 0.5  # of the width of a map
 # Scenes that are spread less across a line than this share of its length lie on it.
 SMALLEST_WIDTH = 1e-6
 
@@ -76,12 +78,10 @@ def draw_over(axes: Axes, section: Section, column: str, options: Options) -> li
 
 
 def title(campaign: Campaign, column: str, held: str = "") -> str:
-    """What is drawn, of which campaign; under a verdict with which film, and whether it was verified."""
-    lines = [f"{look.capital(look.short_name(column))}, {look.headline(campaign)}", held]
-    if column in look.VERDICTS:
-        checked = "" if "verdict_verified" in campaign else "; whether it is verified was not recorded"
-        lines.insert(1, f"{look.capital(style.film_words(campaign))}{checked}")
-    return "\n".join(filter(None, lines))
+    """What is drawn, of which campaign, under a verdict with which film, and what is held."""
+    film = style.film_words(campaign) if column in look.VERDICTS else ""
+    about = ", ".join(filter(None, (campaign.name, film, held)))
+    return f"{look.capital(look.short_name(column))}: {about}"
 
 
 def draw_pairs(
@@ -201,6 +201,10 @@ def draw_cells(
         handles += _hatch_doubt(axes, edges, section.mask(doubt.scenes), doubt)
     look.set_axis(axes, "x", x, to_edges=True)
     look.set_axis(axes, "y", y, to_edges=True)
+    if column in look.VERDICTS:
+        _name_calm(axes, section, values)
+        if "verdict_verified" not in campaign:
+            handles.append(Line2D([], [], linestyle="", label="whether it is verified was not recorded"))
     handles += look.draw_measured_speeds(axes, campaign, {"x": x.key, "y": y.key})
     return handles, drawn
 
@@ -452,6 +456,25 @@ def _hatch_doubt(
         axes.contour(*squares, levels=(0.5,), colors=[colour], linewidths=[width])
     words = f"{doubt.words} ({look.share(int(where.sum()), where.size)})"
     return [look.doubt_patch(words, doubt)]
+
+
+def _name_calm(axes: Axes, section: Section, values: np.ndarray) -> None:
+    """Write 'no separation' where it is, in the longest row of cells, if that has room for it."""
+    best = (0.0, 0.0, 0.0)
+    edges = look.cell_edges(section.free[0])
+    seen = np.log(edges) if look.is_logarithmic(section.free[0]) else edges
+    height = section.free[1].values
+    for row, calm in enumerate((values == NO_SEPARATION).T):
+        bounds = np.flatnonzero(np.diff(np.concatenate(([False], calm, [False])).astype(int)))
+        for first, last in zip(bounds[::2], bounds[1::2], strict=True):
+            length = (seen[last] - seen[first]) / np.ptp(seen)
+            if length > best[0] + 1e-9:
+                middle = (0.5 * (seen[first] + seen[last]) - seen[0]) / np.ptp(seen)
+                # The next row is as calm where the first of all is half as high.
+                best = (length, middle, float(height[min(row + (row == 0), height.size - 1)]))
+    if best[0] > ROOM_FOR_WORDS:
+        place = axes.get_yaxis_transform()
+        axes.text(best[1], best[2], "no separation", transform=place, ha="center", va="center", fontsize=8)
 
 
 def _squares(edges: Sequence[np.ndarray], where: np.ndarray) -> tuple[np.ndarray, ...]:

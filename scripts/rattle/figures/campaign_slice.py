@@ -40,8 +40,8 @@ def draw(section: Section, columns: Sequence[str]) -> Figure:
     figure.align_ylabels()
     if handles:
         figure.legend(handles=list(handles.values()), loc="outside lower center", ncols=4)
-    held = f"\n{section.words}" if section.held else ""
-    panels[0].set_title(f"Along {look.short_name(axis.key)}, {look.headline(campaign)}{held}")
+    held = f", {section.words}" if section.held else ""
+    panels[0].set_title(f"Along {look.short_name(axis.key)}: {campaign.name}{held}")
     return figure
 
 

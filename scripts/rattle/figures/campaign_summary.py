@@ -65,7 +65,7 @@ def _draw_head(axes: Axes, campaign: Campaign) -> None:
             keys.append(f"{look.short_name(axis.key)}: {span} ({axis.scale}{count})")
     keys.append(f"{look.capital(style.film_words(campaign))};  rattle {campaign.program_version}")
     if campaign.has_gear:
-        keys.append(f"Acceleration {style.RELATIVE}".replace("\n", " "))
+        keys.append(f"Acceleration {style.RELATIVE}")
     axes.text(0.0, 0.62, "\n".join(keys), fontsize=8, va="top", transform=axes.transAxes, linespacing=1.4)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from argparse import Namespace
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -173,7 +173,7 @@ def narrow_legends(figure: Figure) -> None:
             legend = _legend_below(figure, entries, columns, size)
 
 
-def wrap_words(figure: Figure, words: Mapping[Text, str]) -> None:
+def wrap_words(figure: Figure, words: dict[Text, str]) -> None:
     """Titles and labels that are longer than their place, in several lines; `words`: all as they were."""
 
     def wrap(text: Text, room: float) -> None:
@@ -189,6 +189,7 @@ def wrap_words(figure: Figure, words: Mapping[Text, str]) -> None:
         end = min((other.x0 for other in beside if other.x0 >= box.x1), default=width)
         start = max((other.x1 for other in beside if other.x1 <= box.x0), default=0.0)
         for title in (axes._left_title, axes.title):
+            words[title] = in_one_line(figure, title, words[title], end - box.x0 - spare)
             wrap(title, end - box.x0 - spare)
         middle = 0.5 * (box.x0 + box.x1)
         room = 2.0 * min(middle - start, end - middle)
@@ -199,6 +200,14 @@ def wrap_words(figure: Figure, words: Mapping[Text, str]) -> None:
     for axes in figure.axes:
         if axes.get_label() == COLORBAR:
             wrap(axes.yaxis.label, height)
+
+
+def in_one_line(figure: Figure, text: Text, words: str, room: float) -> str:
+    """A title without its last parts, as 'What: whose' of 'What: whose, film', where it needs two lines."""
+    subject, colon, parts = words.partition(": ")
+    while colon and ", " in parts and _width(figure, text, f"{subject}: {parts}") > 0.96 * room:
+        parts = parts.rpartition(", ")[0]
+    return f"{subject}{colon}{parts}"
 
 
 def broken(figure: Figure, text: Text, words: str, room: float) -> str:

@@ -19,7 +19,8 @@ FEWEST_POINTS = 4  # of the impact in the series; fewer would not show it
 FLANK_FILMS = (FILM, "coast_film")
 FLANK_LOADS = ("film_load", "coast_load")
 FLANK_LINES = (style.run_line(0), style.run_line(1))
-LOAD_LABEL = "Load of the film $W$ [N]"
+LOAD_LABEL = "Film load $W$ [N]"
+HARDLY = 0.01  # of the range of a curve
 SAME_FILMS = 1e-4  # of their range; a smaller difference is thinner than the line that shows it
 
 
@@ -36,13 +37,15 @@ def draw_film_and_force(results: Sequence[Result], labels: Sequence[str], period
         force_axes.plot(*last_periods(result, "applied_force", periods), **force_line)
     for axes in (film_axes, force_axes):
         period_rules(axes, results, periods)
-    film_axes.set_ylim(bottom=0.0)
+    film_axes.set_yscale("log")
+    plain_log_ticks(film_axes.yaxis, *film_axes.get_ylim())
     film_axes.set_ylabel(style.FILM_LABEL)
     force_axes.set_ylabel(style.FORCE_LABEL)
     figure.align_ylabels()
     force_axes.set_xlabel(time_label(results, periods))
-    note = coarse_words(results[0], FILM, periods, r"$\mathrm{\mu}$m", 1e6)
-    style.name_runs(figure, film_axes, "Film thickness under the applied force", results, labels, note)
+    if len(results) == 1:
+        style.note(film_axes, coarse_words(results[0], FILM, periods, r"$\mathrm{\mu}$m", 1e6))
+    style.name_runs(figure, film_axes, "Film and applied force", results, labels)
     return figure
 
 
@@ -60,8 +63,9 @@ def draw_acceleration(results: Sequence[Result], labels: Sequence[str], periods:
     period_rules(axes, results, periods)
     axes.set_ylabel(style.of_acceleration(style.ACCELERATION_LABEL, results))
     axes.set_xlabel(time_label(results, periods))
-    note = coarse_words(results[0], "acceleration", periods, "m/s$^2$")
-    style.name_runs(figure, axes, "Acceleration of the film surface", results, labels, note)
+    if len(results) == 1:
+        style.note(axes, coarse_words(results[0], "acceleration", periods, "m/s$^2$"))
+    style.name_runs(figure, axes, "Acceleration", results, labels)
     if near:
         _draw_impact(axes, below[0], near)
     return figure
@@ -87,8 +91,8 @@ def draw_flanks(result: Result, label: str) -> Figure:
     for axes in (*both, last):
         period_rules(axes, [result], periods)
     figure.align_ylabels()
-    note = coarse_words(result, FILM, periods, r"$\mathrm{\mu}$m", 1e6)
-    both[0].set_title("\n".join(filter(None, (style.title("Both flanks", result, label), note))))
+    style.note(both[0], coarse_words(result, FILM, periods, r"$\mathrm{\mu}$m", 1e6))
+    both[0].set_title(style.title("Both flanks", result, label))
     style.legend_below(figure, both[0])
     return figure
 
@@ -143,15 +147,24 @@ def last_periods(
 
 
 def coarse_words(result: Result, name: str, periods: int, unit: str, scale: float = 1.0) -> str:
-    """What the histories of a series that is coarser than its motion do not show; nothing if it is not."""
+    """What histories do not show of a series that is coarser than its motion.
+
+    Nothing where the series is fine, or every period drawn has its extremes, or hardly misses them.
+    """
     if not result.coarse:
         return ""
     if TIME not in result or not result.extremes[TIME].size:
         return f"Series of {style.FEW_SAMPLES}; what lies between them is not known"
     drawn = np.arange(result.whole_periods - periods, result.whole_periods)
     if (_repetitions(result, periods) | (_own_periods(result)[:, None] == drawn)).all():
-        return f"Series of {style.FEW_SAMPLES}; the extremes between them are drawn in every period"
-    least, largest = (scale * function(result.extremes[name]) for function in (np.min, np.max))
+        return ""
+    ends = np.array([function(result.extremes[name]) for function in (np.min, np.max)])
+    samples = result.samples(name, result.window(periods)).reshape(periods, -1)
+    found = np.array([samples.min(axis=1), samples.max(axis=1)]).T
+    seen = np.log if name == FILM and ends[0] > 0.0 else np.asarray
+    if np.abs(seen(found) - seen(ends)).max() <= HARDLY * np.ptp(seen(ends)):
+        return ""
+    least, largest = scale * ends
     return f"Series of {style.FEW_SAMPLES}; between them {least:.4g} to {largest:.4g} {unit}, not all drawn"
 
 

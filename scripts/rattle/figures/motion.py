@@ -76,8 +76,8 @@ def add_options(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--level",
         choices=("linear", "db"),
-        default="linear",
-        help="amplitudes of the acceleration linear and logarithmic, or as levels in dB re 1e-6 m/s2",
+        default="db",
+        help="the acceleration as levels in dB re 1e-6 m/s2 (default), or as amplitudes",
     )
     parser.add_argument("--overlay", action="store_true", help="draw all results in the same figures")
     parser.add_argument(

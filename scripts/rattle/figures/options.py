@@ -25,7 +25,10 @@ def common_options() -> argparse.ArgumentParser:
         help=f"of {', '.join(FORMATS)} (png,pdf)",
     )
     group.add_argument(
-        "--width", type=width, metavar="MM", help="width in mm, 80 for a column (most figures: 160)"
+        "--width",
+        type=width,
+        metavar="MM",
+        help="width in mm, 80 for a column, whose titles leave out the film (160)",
     )
     group.add_argument(
         "--font-size", type=font_size, metavar="PT", help="size of the type in points (9; 7 in a column)"

@@ -15,7 +15,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from rattle.codes import spoken
 from rattle.figures import style
 from rattle.result import Result, ResultError
 from rattle.summary import Summary, read_summary
@@ -28,9 +27,14 @@ GROUP_WIDTH = 0.4  # of runs side by side, less than the distance of half-intege
 ROOM_FOR_LINES = 100.0  # points that harmonics may cover, also in a column
 SMALLEST_LAST_RATIO = 10.0
 LARGEST_FAINT_RATIO = 40.0  # up to which harmonics below the threshold have room
+ROOM_BELOW = 0.1  # of the least amplitude that counts, where the axis ends
+AS_GOOD = 0.01  # of the largest harmonic, by which samples miss none that is known better
+RESOLVED = 10  # samples in the period of a harmonic that they are taken to resolve
+MOST_LINEAR = 100.5  # harmonics that stand beside each other; of more the axis is logarithmic
+MOST_NAMED = 8  # orders of the force that a legend names
 FREQUENCY_LABELS = {"ratio": style.RATIO_LABEL, "hz": "Frequency [Hz]", "order": "Engine order [-]"}
 REFERENCE = 1e-6  # m/s2, of levels
-LEVEL_LABEL = r"Level of the amplitude of $\ddot{z}$" "\n" r"[dB re 10$^{-6}$ m/s$^2$]"
+LEVEL_LABEL = r"Level [dB re 10$^{-6}$ m/s$^2$]"
 
 
 @dataclass(frozen=True)
@@ -42,7 +46,7 @@ class View:
 
     frequency: str | None = None
     shaft_speed: float | None = None
-    decibels: bool = False
+    decibels: bool = True
 
     def settled(self, results: Sequence[Result]) -> View:
         """The same with the frequency that these results are shown over."""
@@ -128,18 +132,15 @@ def _name_lines(
 def draw_acceleration(
     results: Sequence[Result], labels: Sequence[str], window: int | None, view: View = PLAIN
 ) -> Figure:
-    """Figure 10: a linear panel as in the paper, and a logarithmic one that shows every harmonic that counts.
-
-    As levels there is the logarithmic one only.
-    """
-    figure = Figure(figsize=(style.WIDTH, 3.0 if view.decibels else 4.6))
-    panels = list(figure.subplots(1 if view.decibels else 2, 1, sharex=True, squeeze=False)[:, 0])
-    first, last = panels[0], panels[-1]
+    """Figure 10: every harmonic that counts, as levels, or as amplitudes as in the paper."""
+    figure = Figure(figsize=(style.WIDTH, 3.6))
+    axes = figure.subplots()
     view = view.settled(results)
+    subject = style.of_acceleration(SUBJECT, results)
     scale = _frequency_label(results, view)
     summaries = [better_summary(result, window) for result in results]
     spectra = [
-        harmonics_of(summary) if summary else column_spectrum(result, "acceleration", window)
+        prolonged(summary, result) if summary else column_spectrum(result, "acceleration", window)
         for result, summary in zip(results, summaries, strict=True)
     ]
     largest = max(float(amplitude[1:].max()) for _, amplitude in spectra)
@@ -148,30 +149,36 @@ def draw_acceleration(
     if len(results) == 1:
         unknown = results[0].coarse and not summaries[0]
         verdict = None if unknown else summaries[0] or classify(results[0], window)
-        _draw_single(figure, panels, results[0], spectra[0], verdict, view, end)
-        words = _verdict_words(verdict, summaries[0])
-        first.set_title(f"{style.title(SUBJECT, results[0], labels[0])}; {words}")
-        last.set_xlabel(scale)
+        _draw_single(figure, axes, results[0], spectra[0], verdict, view, end)
+        if unknown:
+            style.note(axes, f"{style.FEW_SAMPLES}: these harmonics are those of the samples")
+        axes.set_title(style.title(subject, results[0], labels[0]))
+        axes.set_xlabel(scale)
     else:
         names = [
             f"{label}, by its summary" if summary else style.curve_label(result, label)
             for result, summary, label in zip(results, summaries, labels, strict=True)
         ]
-        handles = _draw_overlay(panels, names, spectra, factors)
-        first.set_title(style.overlay_title(SUBJECT, results))
-        last.set_xlabel(f"{scale}; runs side by side")
-        style.legend_below(figure, first, labels=handles)
-    first.set_xlim(0.0, end * max(factors))
-    first.set_ylim(0.0, 1.08 * largest if largest > 0.0 else 1.0)
-    last.set_ylim(first.get_ylim())
-    if largest > 0.0:
-        last.set_yscale("log")
-        last.set_ylim(FLOOR * largest, 3.0 * largest)
-    for axes in panels:
-        axes.set_ylabel(style.of_acceleration(style.AMPLITUDE_LABEL, results))
+        handles = _draw_overlay(axes, names, spectra, factors)
+        axes.set_title(style.overlay_title(subject, results))
+        axes.set_xlabel(f"{scale}; runs side by side")
+        style.legend_below(figure, axes, labels=handles)
+    axes.set_xlim(0.0, end * max(factors))
+    if end > MOST_LINEAR:
+        axes.set_xscale("log")
+        axes.set_xlim(0.8 * min(factors), end * max(factors))
+        low, high = axes.get_xlim()
+        ticks = [step * 10.0**decade for decade in range(-2, 6) for step in (1, 2, 5)]
+        axes.set_xticks([tick for tick in ticks if low <= tick <= high])
+        axes.xaxis.set_major_formatter("{x:g}")
+        axes.set_xticks([], minor=True)
+    axes.set_ylim(0.0, 1.08 * largest if largest > 0.0 else 1.0)
+    axes.set_ylabel(style.of_acceleration(style.AMPLITUDE_LABEL, results))
     if view.decibels and largest > 0.0:
-        _show_levels(last)
-    figure.align_ylabels()
+        counted = min(map(_least_counted, results, spectra))
+        axes.set_yscale("log")
+        axes.set_ylim(max(ROOM_BELOW * counted, FLOOR * largest), 3.0 * largest)
+        _show_levels(axes)
     return figure
 
 
@@ -182,7 +189,8 @@ def share_ranges(figures: Sequence[Figure]) -> None:
         panel = figure.axes[-1]
         ends[panel.get_xlabel()] = max(ends.get(panel.get_xlabel(), 0.0), panel.get_xlim()[1])
     for figure in figures:
-        figure.axes[-1].set_xlim(0.0, ends[figure.axes[-1].get_xlabel()])
+        panel = figure.axes[-1]
+        panel.set_xlim(panel.get_xlim()[0], ends[panel.get_xlabel()])
 
 
 def _show_levels(axes: Axes) -> None:
@@ -196,7 +204,7 @@ def _show_levels(axes: Axes) -> None:
 
 def _draw_single(
     figure: Figure,
-    panels: Sequence[Axes],
+    axes: Axes,
     result: Result,
     spectrum: tuple[np.ndarray, np.ndarray],
     verdict: Mapping[str, Any] | None,
@@ -216,48 +224,45 @@ def _draw_single(
     handles = {}
     of_force = _harmonics_of_force(result)
     driven = harmonic & np.isin(ratio, of_force)
-    for axes in panels:
-        axes.vlines(place[between], 0.0, amplitude[between], color=style.FAINT_COLOUR, linewidth=0.9)
-        handles[f"harmonics of {result.frequency:.4g} Hz"] = axes.vlines(
-            place[harmonic & ~driven], 0.0, amplitude[harmonic & ~driven], color=colour, **thick
+    lines = axes.vlines(place[between], 0.0, amplitude[between], color=style.FAINT_COLOUR, linewidth=0.9)
+    handles[f"harmonics of {result.frequency:.4g} Hz"] = axes.vlines(
+        place[harmonic & ~driven], 0.0, amplitude[harmonic & ~driven], color=colour, **thick
+    )
+    if driven.any():
+        axes.vlines(place[driven], 0.0, amplitude[driven], color=style.FORCE_COLOUR, **thick)
+        (handles[_force_words(place[driven], view)],) = axes.plot(
+            place[driven],
+            amplitude[driven],
+            color=style.FORCE_COLOUR,
+            marker="o",
+            markersize=3.4,
+            linestyle="",
         )
-        if driven.any():
-            axes.vlines(place[driven], 0.0, amplitude[driven], color=style.FORCE_COLOUR, **thick)
-            (handles["at harmonics of the force"],) = axes.plot(
-                place[driven],
-                amplitude[driven],
-                color=style.FORCE_COLOUR,
-                marker="o",
-                markersize=3.4,
-                linestyle="",
-            )
     if between.any():
-        handles["between the harmonics"] = panels[0].collections[0]
-    # Under several harmonics are held against the largest forced one, which a summary does not name.
-    reference = (verdict or {}).get("reference_line") if of_force.size else 1
+        handles["between the harmonics"] = lines
+    # Under several, harmonics are held against the largest forced one.
+    reference = 1
+    if of_force.size:
+        forced_lines = np.where(driven, amplitude, -1.0)
+        reference = (verdict or {}).get("reference_line", int(np.argmax(forced_lines)) // periods)
     if reference and amplitude[reference * periods] > 0.0:
         name = "the first harmonic" if reference == 1 else f"harmonic {reference}"
         if view.frequency == "order":
             name = f"the line of engine order {engine_order(result, reference, view.shaft_speed):.4g}"
-        handles[f"{100 * threshold:.3g} % of {name}"] = panels[-1].axhline(
+        handles[f"{100 * threshold:.3g} % of {name}"] = axes.axhline(
             threshold * amplitude[reference * periods],
             color=style.FORCE_COLOUR,
             linewidth=0.9,
             linestyle=(0, (4, 2)),
         )
-    style.legend_below(figure, panels[0], labels=handles)
+    style.legend_below(figure, axes, labels=handles)
 
 
-def _verdict_words(verdict: Mapping[str, Any] | None, summary: Summary | None) -> str:
-    if not verdict:
-        return f"{style.FEW_SAMPLES}\nThe harmonics are those of the samples, not of the motion"
-    bound = "at least " if verdict.get("harmonic_count_is_bound") else ""
-    words = f"{bound}{verdict['harmonic_count']} harmonics, class {spoken(verdict['rattle_class'])}"
-    if not summary:
-        return words
-    more_samples = f"of {summary['samples_per_period']} samples a period"
-    source = "integrals over the steps" if summary["harmonics_by_integrals"] else more_samples
-    return f"{words}\nSeries of {style.FEW_SAMPLES}; harmonics of the summary, {source}"
+def _force_words(orders: np.ndarray, view: View) -> str:
+    """The harmonics of the force in a legend, by their engine orders where these are few."""
+    if view.frequency != "order" or orders.size > MOST_NAMED:
+        return "at harmonics of the force"
+    return f"orders of the force: {', '.join(f'{order:.4g}' for order in orders)}"
 
 
 def _harmonics_of_force(result: Result) -> np.ndarray:
@@ -289,7 +294,7 @@ def _frequency_label(results: Sequence[Result], view: View) -> str:
 
 
 def _draw_overlay(
-    panels: Sequence[Axes],
+    axes: Axes,
     labels: Sequence[str],
     spectra: Sequence[tuple[np.ndarray, np.ndarray]],
     factors: Sequence[float],
@@ -307,9 +312,8 @@ def _draw_overlay(
         place = factor * (ratio + spacing * (position - 0.5 * (len(spectra) - 1)))
         seen = np.flatnonzero(amplitude > FLOOR * largest)
         seen = seen[seen > 0]
-        for axes in panels:
-            axes.vlines(place[1:], 0.0, amplitude[1:], label=label, **look)
-            axes.plot(place[seen], amplitude[seen], linestyle="", color=look["color"], **mark)
+        axes.vlines(place[1:], 0.0, amplitude[1:], label=label, **look)
+        axes.plot(place[seen], amplitude[seen], linestyle="", color=look["color"], **mark)
         handles[label] = Line2D([], [], **look, **mark)
     return handles
 
@@ -317,13 +321,25 @@ def _draw_overlay(
 def _last_ratio(result: Result, spectrum: tuple[np.ndarray, np.ndarray]) -> float:
     """Where the axis ends: behind the last harmonic that counts, and within limits behind fainter ones."""
     ratio, amplitude = spectrum[0][1:], spectrum[1][1:]
-    of_force = _harmonics_of_force(result) if _harmonics_of_force(result).size else [1.0]
-    forced_harmonic = amplitude[np.isin(ratio, of_force)].max(initial=0.0)
-    least = thresholds(result)["harmonic_threshold"] * forced_harmonic
-    counted = ratio[(amplitude > least) & (ratio % 1.0 == 0.0) & (forced_harmonic > 0.0)]
+    of_force = _forcing(result)
+    least = _least_counted(result, spectrum)
+    counted = ratio[(amplitude > least) & (ratio % 1.0 == 0.0) & (least > 0.0)]
     faint = ratio[amplitude > FLOOR * amplitude.max()]
     ends = (SMALLEST_LAST_RATIO, max(of_force), counted.max(initial=0.0))
     return math.ceil(max(*ends, min(faint.max(initial=0.0), LARGEST_FAINT_RATIO))) + 0.5
+
+
+def _forcing(result: Result) -> Sequence[float]:
+    """Harmonics of the force, of a cosine the first."""
+    of_force = _harmonics_of_force(result)
+    return of_force if of_force.size else [1.0]
+
+
+def _least_counted(result: Result, spectrum: tuple[np.ndarray, np.ndarray]) -> float:
+    """The amplitude above which a harmonic counts."""
+    ratio, amplitude = spectrum
+    largest = amplitude[np.isin(ratio, _forcing(result))].max(initial=0.0)
+    return float(thresholds(result)["harmonic_threshold"] * largest)
 
 
 def better_summary(result: Result, window: int | None) -> Summary | None:
@@ -343,6 +359,20 @@ def harmonics_of(summary: Summary) -> tuple[np.ndarray, np.ndarray]:
     """Frequency ratio and amplitudes [m/s2] of the harmonics that a summary lists, behind a mean of zero."""
     amplitudes = np.concatenate(([0.0], np.atleast_1d(np.asarray(summary["harmonics"], dtype=float))))
     return np.arange(float(amplitudes.size)), amplitudes
+
+
+def prolonged(summary: Summary, result: Result) -> tuple[np.ndarray, np.ndarray]:
+    """The harmonics of a summary, behind them those of the samples where these give the ones that it has."""
+    ratio, amplitude = harmonics_of(summary)
+    _, by_samples = column_spectrum(result, "acceleration", 1)
+    known = slice(1, amplitude.size)
+    end = min(result.samples_per_period // RESOLVED, by_samples.size)
+    if result.orbit_period != 1 or end <= amplitude.size:
+        return ratio, amplitude
+    if np.abs(by_samples[known] - amplitude[known]).max() > AS_GOOD * amplitude.max():
+        return ratio, amplitude
+    longer = np.concatenate((amplitude, by_samples[amplitude.size : end]))
+    return np.arange(float(longer.size)), longer
 
 
 def column_spectrum(result: Result, name: str, window: int | None) -> tuple[np.ndarray, np.ndarray]:

@@ -34,7 +34,7 @@ HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]  # of words o
 ACCELERATION_LABEL = r"Acceleration $\ddot{z}$ [m/s$^2$]"
 AMPLITUDE_LABEL = r"Amplitude of $\ddot{z}$ [m/s$^2$]"
 # What the acceleration of a gear pair is.
-RELATIVE = "relative to the shaft,\non line of action"
+RELATIVE = "relative to the shaft, on the line of action"
 FILM_LABEL = r"Film thickness $h$ [$\mathrm{\mu}$m]"
 FORCE_LABEL = r"Applied force $F$ [N]"
 RATIO_LABEL = r"Frequency ratio $f/f_\mathrm{exc}$"
@@ -183,12 +183,12 @@ def film_words(result: ResultFile) -> str:
 
 def title(subject: str, result: Result, label: str) -> str:
     """One line that says what is drawn, of which scene, and with which film."""
-    return f"{subject}\nScene {label}, {film_words(result)}"
+    return f"{subject}: {label}, {film_words(result)}"
 
 
 def overlay_title(subject: str, results: Sequence[Result]) -> str:
     films = sorted({film_words(result) for result in results})
-    return f"{subject}\n{len(results)} runs, {' and '.join(films)}"
+    return f"{subject}: {len(results)} runs, {' and '.join(films)}"
 
 
 def curve_label(result: Result, label: str) -> str:
@@ -202,11 +202,10 @@ def name_runs(
     subject: str,
     results: Sequence[Result],
     labels: Sequence[str],
-    note: str = "",
 ) -> None:
-    """Title the axes, with a note on a single run; several runs are told apart by a legend below."""
+    """Title the axes; several runs are told apart by a legend below."""
     if len(results) == 1:
-        axes.set_title("\n".join(filter(None, (title(subject, results[0], labels[0]), note))))
+        axes.set_title(title(subject, results[0], labels[0]))
     else:
         axes.set_title(overlay_title(subject, results))
         legend_below(figure, axes)
@@ -219,5 +218,18 @@ def _repeated(labels: Sequence[str]) -> list[bool]:
 
 def of_acceleration(label: str, results: Sequence[Result]) -> str:
     """The label of an axis: that of a gear is relative to the shaft, along the line of action."""
-    of_gears = any(result.has_gear for result in results)
-    return label.replace(" [", f"\n{RELATIVE} [") if of_gears else label
+    return relative_label(label) if any(result.has_gear for result in results) else label
+
+
+def relative_label(label: str) -> str:
+    """As in 'Relative acceleration' and 'Amplitude of relative ...'."""
+    words = label.replace(r"Acceleration $\ddot{z}$", "Relative acceleration")
+    words = words.replace("of the acceleration", "of the relative acceleration")
+    return words.replace(r"of $\ddot{z}$", r"of relative $\ddot{z}$")
+
+
+def note(axes: Axes, words: str) -> None:
+    """A warning in a corner of the panel; titles have none."""
+    if words:
+        place = {"xycoords": "axes fraction", "textcoords": "offset points", "va": "top"}
+        axes.annotate(words, (0.0, 1.0), xytext=(4, -2), fontsize=7, path_effects=HALO, **place)

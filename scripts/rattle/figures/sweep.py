@@ -69,11 +69,11 @@ def _plain(name: str) -> Callable[[Result, np.ndarray], Sequence[np.ndarray]]:
 
 
 PANELS = {
-    "film": Panel(r"Film, least and" "\n" r"largest [$\mathrm{\mu}$m]", _films),
-    "acceleration": Panel(r"Largest $|\ddot{z}|$" "\n" r"[m/s$^2$]", _peak),
+    "film": Panel(r"Film [$\mathrm{\mu}$m]", _films),
+    "acceleration": Panel(r"Peak $|\ddot{z}|$ [m/s$^2$]", _peak),
     "harmonics": Panel("Harmonics", _plain("harmonic_count")),
-    "period": Panel("Period\n[$1/f_\\mathrm{exc}$]", _plain("orbit_period"), 1.0),
-    "multiplier": Panel("Largest Floquet\nmultiplier", _plain("floquet_modulus"), 1.6),
+    "period": Panel(r"Period [$1/f$]", _plain("orbit_period"), 1.0),
+    "multiplier": Panel("Floquet multiplier", _plain("floquet_modulus"), 1.6),
 }
 DEFAULT_PANELS = ("film", "acceleration", "period", "multiplier")
 
@@ -175,9 +175,9 @@ def draw(
             fontsize=8,
             path_effects=style.HALO,
         )
-    single = f"Scene {results[0].scene_name}, {style.film_words(results[0])}"
+    single = f"{results[0].scene_name}, {style.film_words(results[0])}"
     words = single if len(results) == 1 else f"{len(results)} sweeps"
-    first.set_title(f"Steady motions along a sweep\n{words}")
+    first.set_title(f"Steady motions: {words}")
     figure.align_ylabels()
     style.legend_below(figure, first, columns=2, labels=handles)
     return figure
@@ -187,7 +187,7 @@ def label_of(name: str, results: Sequence[Result]) -> str:
     """The label of a panel; the acceleration of gears is relative to the shaft."""
     label = PANELS[name].label
     if name == "acceleration" and any(result.has_gear for result in results):
-        return label.replace("\n", f"\n{style.RELATIVE}\n", 1)
+        return label.replace("Peak", "Relative peak")
     return label
 
 

@@ -21,7 +21,17 @@ from rattle.campaign_result import Axis
 from rattle.campaign_section import Section, new_section, short_name, spaced_unit
 from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, style
-from rattle.figures.threshold_curves import curves, draw_bars, draw_either, either_entry, unjoined
+from rattle.figures.threshold_curves import (
+    END_WORDS,
+    curves,
+    draw_bars,
+    draw_either,
+    either_entry,
+    line_ends,
+    shade,
+    shade_entry,
+)
+from rattle.rounding import stated_error
 from rattle.thresholds import Thresholds, thresholds, words_of_criterion
 
 DESCRIPTION = (
@@ -48,9 +58,9 @@ def add_options(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--crossing",
         type=command.positive,
-        default=1,
         metavar="N",
-        help="which change of a trace is drawn over two keys, counted from the first value (1)",
+        help="draw only this change of each trace over two keys, counted from the first value (all; in a map "
+        "of colours the first)",
     )
     parser.add_argument(
         "--slice",
@@ -114,7 +124,7 @@ def draw(
     found: Thresholds,
     held: Mapping[str, float] | None = None,
     section: Section | None = None,
-    crossing: int = 1,
+    crossing: int | None = None,
 ) -> Figure:
     """Thresholds over the keys that are not held."""
     free = [axis for axis in found.axes if axis.key not in (held or {})]
@@ -127,23 +137,25 @@ def draw(
             axes, found, *sorted(free, key=lambda axis: (axis.key == GEAR, -axis.values.size)), crossing
         )
     else:
+        crossing = crossing or 1
         handles = draw_surface(figure, axes, found, *free[:2], crossing)
     if handles:
         figure.legend(handles=handles, loc="outside lower center", ncols=3)
     what = words_of_criterion(found)
-    if len(free) > 1:
+    if len(free) > 1 and crossing:
         what = f"{ordinal(crossing)} {what}"
     parts = [f"{short_name(key)} = {found.words_of_value(key, value)}" for key, value in (held or {}).items()]
-    first, last = (f"{value:.4g}" for value in found.range.values)
-    lines = [
-        f"{look.capital(short_name(found.key))}: {what}",
-        f"Scene {found.result.scene_name}, {style.film_words(found.result)}",
-        f"Searched from {first} to {last}{spaced_unit(look.drawn_unit(found.range.unit))}",
-    ]
-    if found.result.units[f"{found.quantity}_below"] == "m/s2" and found.result.has_gear:
-        lines.append("Acceleration relative to the shaft, along the line of action")
-    axes.set_title("\n".join([*lines, *([", ".join(parts)] if parts else [])]))
+    relative = found.result.units[f"{found.quantity}_below"] == "m/s2" and found.result.has_gear
+    what = f"relative {what}" if relative else what
+    axes.set_title(", ".join([f"{look.capital(what)}: {found.result.scene_name}", *parts]))
     return figure
+
+
+def searched_label(found: Thresholds) -> str:
+    """The label of the axis of thresholds, with the range in which they were sought."""
+    first, last = (f"{value:.4g}" for value in found.range.values)
+    unit = spaced_unit(look.drawn_unit(found.range.unit))
+    return f"{look.axis_label(found.range)}, searched from {first} to {last}{unit}"
 
 
 def ordinal(number: int) -> str:
@@ -160,6 +172,9 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
         handles, _ = campaign_map.draw_cells(axes, section, map_column(section, found))
     x, y, crossed = found.column(axis.key), found.values, found.column("crossing") > 0
     common = [kind for kind, _ in Counter(found.kinds[crossed]).most_common()]
+    lines: list = []
+    if section is None:
+        shade(axes, found, axis, np.ones(x.size, dtype=bool), style.FORCE_COLOUR)
     kinds = common if len(common) <= MOST_KINDS + 1 else [*common[:MOST_KINDS], None]
     for place, kind in enumerate(kinds):
         chosen = crossed & (found.kinds == kind if kind else ~np.isin(found.kinds, kinds[:-1]))
@@ -169,6 +184,7 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
         for part in curves(found, axis, chosen) if kind else ():
             axes.plot(*part, zorder=3, color=colour, path_effects=halo, **dashes)
         draw_either(axes, found, axis, chosen, colour)
+        lines += curves(found, axis, chosen) if kind else []
         draw_bars(axes, x[chosen], found.column("lower")[chosen], found.column("upper")[chosen], colour)
         marks = {"color": colour, "marker": style.RUN_MARKS[place], "markersize": 3.0, "zorder": 4}
         sure = chosen & ~found.uncertain
@@ -182,8 +198,9 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
         )
         words = kind or "other changes"
         handles.append(Line2D([], [], **dashes, **marks, label=f"{words} ({int(chosen.sum())})"))
-    if bars_show(axes, found, crossed):
-        handles.append(bar_entry())
+    handles += width_entry(axes, found, crossed)
+    handles += draw_ends(axes, lines, axis)
+    handles += [shade_entry(found)] if section is None else []
     if found.either.any():
         handles.append(either_entry(int(found.either.sum())))
     if found.uncertain.any():
@@ -199,11 +216,34 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
     return handles
 
 
+def draw_ends(axes: Axes, lines: list, axis: Axis) -> list[Line2D]:
+    """Rings where lines end or jump within the picture; returns their legend entry."""
+    x, y = line_ends(lines, axis)
+    if not x.size:
+        return []
+    ring = {"marker": "o", "markersize": 8, "markerfacecolor": "none", "color": "black", "linestyle": ""}
+    axes.plot(x, y, zorder=5, **ring)
+    return [Line2D([], [], **ring, label=END_WORDS)]
+
+
 def bars_show(axes: Axes, found: Thresholds, chosen: np.ndarray) -> bool:
     """Whether some bar is longer than its mark."""
     seen = np.log if look.is_logarithmic(found.range) else np.asarray
     lower, upper = (seen(found.column(name)[chosen]) for name in ("lower", "upper"))
     return bool((upper - lower > LEAST_BAR * np.ptp(seen(np.array(axes.get_ylim())))).any())
+
+
+def width_entry(axes: Axes, found: Thresholds, chosen: np.ndarray) -> list[Line2D]:
+    """How well the thresholds are known: the bars where they can be seen, else the widest of them."""
+    if not chosen.any():
+        return []
+    if bars_show(axes, found, chosen):
+        return [bar_entry()]
+    places = np.flatnonzero(chosen)
+    widest = places[int(np.argmax(found.column("width")[places]))]
+    known = stated_error(float(found.column("width")[widest]), float(found.values[widest]), 6)
+    unit = spaced_unit(look.drawn_unit(found.range.unit))
+    return [Line2D([], [], linestyle="", label=f"known to {known:.2g}{unit}")]
 
 
 def bar_entry() -> Line2D:
@@ -222,6 +262,7 @@ def set_range(axes: Axes, found: Thresholds, values: np.ndarray) -> None:
         if half < 0.35 * np.ptp(ends):
             searched = replace(searched, values=back(np.clip([middle - half, middle + half], *ends)))
     look.set_axis(axes, "y", searched, to_edges=False)
+    axes.set_ylabel(searched_label(found))
 
 
 def map_column(section: Section, found: Thresholds) -> str:
@@ -242,28 +283,35 @@ def on_plane(found: Thresholds, x: Axis, y: Axis, crossing: int) -> tuple[np.nda
     return values, ends, uncertain
 
 
-def draw_curves(axes: Axes, found: Thresholds, along: Axis, other: Axis, crossing: int) -> list:
-    """A curve along one key for each value of another; returns legend entries."""
+def draw_curves(axes: Axes, found: Thresholds, along: Axis, other: Axis, crossing: int | None) -> list:
+    """Curves along one key for each value of another, of one change or all; returns legend entries."""
     look.set_axis(axes, "x", along, to_edges=False)
-    values, ends, uncertain = on_plane(found, along, other, crossing)
-    lasting = found.column("crossing") == crossing
+    lasting = found.column("crossing") == crossing if crossing else found.column("crossing") > 0
     handles: list = []
-    set_range(axes, found, np.concatenate((values.ravel(), *(end[lasting] for end in found.ends))))
+    values, x, uncertain = found.values, found.column(along.key), found.uncertain
+    set_range(axes, found, np.concatenate((values[lasting], *(end[lasting] for end in found.ends))))
+    lines: list = []
     for place, value in enumerate(other.values):
-        column, unsure = values[:, place], uncertain[:, place]
+        own = found.column(other.key) == value
+        chosen, unsure = own & lasting, own & lasting & uncertain
         label = f"{short_name(other.key)} {found.words_of_value(other.key, value)}"
         mark = {"marker": style.RUN_MARKS[place], "markersize": 3.0}
         line = style.run_line(place)
-        draw_bars(axes, along.values, *ends[:, :, place], line["color"])
-        draw_either(axes, found, along, lasting & (found.column(other.key) == value), line["color"])
-        handles += axes.plot(*unjoined(found, along.values, column), label=label, **line, **mark)
+        draw_bars(axes, x[chosen], *(found.column(end)[chosen] for end in ("lower", "upper")), line["color"])
+        draw_either(axes, found, along, chosen, line["color"])
+        shade(axes, found, along, own, line["color"])
+        kinds = dict.fromkeys(found.kinds[chosen])
+        parts = [part for kind in kinds for part in curves(found, along, chosen & (found.kinds == kind))]
+        for part in parts:
+            axes.plot(*part, **line, **mark)
+        lines += parts
+        handles.append(Line2D([], [], label=label, **line, **mark))
         points = {"color": line["color"], "linestyle": "", "markerfacecolor": "white", **mark}
-        axes.plot(along.values[unsure], column[unsure], **points)
-    if bars_show(axes, found, lasting):
-        handles.append(bar_entry())
+        axes.plot(x[unsure], values[unsure], **points)
+    handles += [*draw_ends(axes, lines, along), shade_entry(found), *width_entry(axes, found, lasting)]
     if (lasting & found.either).any():
         handles.append(either_entry(int((lasting & found.either).sum())))
-    if uncertain.any():
+    if (lasting & uncertain).any():
         mark = {"marker": "o", "markersize": 4, "markerfacecolor": "white", "color": style.FORCE_COLOUR}
         handles.append(Line2D([], [], linestyle="", **mark, label=UNCERTAIN))
     return handles
@@ -286,7 +334,7 @@ def draw_surface(figure: Figure, axes: Axes, found: Thresholds, x: Axis, y: Axis
             label.set_path_effects(style.HALO)
     look.set_axis(axes, "x", x, to_edges=True)
     look.set_axis(axes, "y", y, to_edges=True)
-    figure.colorbar(drawn, ax=axes, label=look.axis_label(found.range), pad=0.02, aspect=30)
+    figure.colorbar(drawn, ax=axes, label=searched_label(found), pad=0.02, aspect=30)
     handles = []
     for where, marker, words in ((np.isnan(values), "x", NONE), (uncertain, ".", UNCERTAIN)):
         if where.any():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
@@ -15,7 +17,12 @@ from rattle.command import CommandError
 from rattle.figures import style
 from rattle.thresholds import Thresholds, words_of_criterion
 
+SHADE = 0.1  # opacity; where several rattle it adds up
 EITHER = "either is possible"
+# What stands where a line ends within a picture.
+END = {"color": "black", "marker": "D", "markersize": 3.2, "linestyle": "", "zorder": 5}
+END_WORDS = "end: the motion changes kind"
+FAR = 0.05  # of the range that was searched
 # A curve of fewer steps than these has no usual one.
 LEAST_STEPS = 4
 DASHES = ("-", (0, (4, 1.2)), (0, (1.2, 1.0)))
@@ -31,9 +38,15 @@ def draw_over_map(axes: Axes, section: Section, found: Thresholds, place: int = 
     look = {"color": "black", "linewidth": 1.6, "linestyle": DASHES[place % len(DASHES)]}
     along = next(axis for axis in rows.axes if axis.key == other)
     crossed = rows.column("crossing") > 0
-    for kind in dict.fromkeys(rows.kinds[crossed]):
-        for x, y in curves(rows, along, crossed & (rows.kinds == kind)):
-            axes.plot(*((x, y) if upwards else (y, x)), zorder=4, path_effects=style.HALO, **look)
+    parts = [
+        part
+        for kind in dict.fromkeys(rows.kinds[crossed])
+        for part in curves(rows, along, crossed & (rows.kinds == kind))
+    ]
+    for x, y in parts:
+        axes.plot(*((x, y) if upwards else (y, x)), zorder=4, path_effects=style.HALO, **look)
+    x, y = line_ends(parts, along)
+    axes.plot(*((x, y) if upwards else (y, x)), **END)
     draw = axes.vlines if upwards else axes.hlines
     known = crossed & np.isfinite(rows.column("lower"))
     ends = (rows.column(name)[known] for name in ("lower", "upper"))
@@ -42,7 +55,26 @@ def draw_over_map(axes: Axes, section: Section, found: Thresholds, place: int = 
     marks = {"color": "black", "marker": "o", "markersize": 3.0, "linestyle": "", "zorder": 5}
     places = rows.column(other)[unsure], rows.values[unsure]
     axes.plot(*(places if upwards else places[::-1]), markerfacecolor="white", **marks)
-    return [Line2D([], [], **look, label=f"threshold: {words_of_criterion(found)}")]
+    handles = [Line2D([], [], **look, label=f"threshold: {words_of_criterion(found)}")]
+    return handles + ([end_entry()] if x.size else [])
+
+
+def line_ends(parts: Sequence[tuple[np.ndarray, np.ndarray]], along: Axis) -> tuple[np.ndarray, np.ndarray]:
+    """Where lines end or jump within the axis, as the motion changes kind there."""
+    ends = []
+    for x, y in parts:
+        for piece in np.split(np.arange(x.size), np.flatnonzero(np.isnan(x))):
+            kept = piece[np.isfinite(x[piece])]
+            for end in kept[[0, -1]] if kept.size else ():
+                # A line of one point, which no stroke shows, is marked wherever it stands.
+                if kept.size == 1 or along.values[0] < x[end] < along.values[-1]:
+                    ends.append((float(x[end]), float(y[end])))
+    found = np.array(list(dict.fromkeys(ends))).reshape(-1, 2)
+    return found[:, 0], found[:, 1]
+
+
+def end_entry() -> Line2D:
+    return Line2D([], [], **END, label=END_WORDS)
 
 
 def of_section(section: Section, found: Thresholds) -> tuple[Thresholds, str]:
@@ -73,34 +105,54 @@ def value_of(section: Section, axis: Axis) -> float | None:
 
 
 def curves(found: Thresholds, axis: Axis, chosen: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Crossings of one kind joined from trace to trace, as long as neighbours have as many of them."""
+    """Crossings of one kind joined from trace to trace."""
     return [unjoined(found, x, found.values[rows]) for x, rows in joined_rows(found, axis, chosen)]
 
 
 def joined_rows(found: Thresholds, axis: Axis, chosen: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
-    """The values of a key along each curve, and the places of its rows."""
-    x = found.column(axis.key)
-    lines = [np.flatnonzero(chosen & (x == value)) for value in axis.values]
-    joined, start = [], 0
-    for end in range(1, len(lines) + 1):
-        if end < len(lines) and len(lines[end]) == len(lines[start]):
-            continue
-        part = np.array(lines[start:end], dtype=int)
-        joined += [(axis.values[start:end], part[:, place]) for place in range(part.shape[1])]
-        start = end
-    return joined
+    """The values of a key along each curve, and the places of its rows.
+
+    Neighbours with as many crossings are joined in their order; else each with the nearest, if it is near.
+    """
+    x, seen = found.column(axis.key), _seen(found)
+    farthest = FAR * float(np.ptp(seen(found.range.values)))
+    ended: list[tuple[int, list[int]]] = []
+    going: list[tuple[int, list[int]]] = []
+    for start, value in enumerate(axis.values):
+        rows = [int(row) for row in np.flatnonzero(chosen & (x == value))]
+        if len(rows) == len(going):
+            pairs = list(enumerate(range(len(rows))))
+        else:
+            steps = sorted(
+                (abs(float(seen(found.values[row]) - seen(found.values[line[1][-1]]))), one, other)
+                for one, line in enumerate(going)
+                for other, row in enumerate(rows)
+            )
+            pairs = []
+            for step, one, other in steps:
+                free = all(one != pair[0] and other != pair[1] for pair in pairs)
+                pairs += [(one, other)] if step <= farthest and free else []
+        taken = dict(pairs)
+        ended += [line for place, line in enumerate(going) if place not in taken]
+        lines = {taken[place]: line for place, line in enumerate(going) if place in taken}
+        going = [
+            (lines[place][0], [*lines[place][1], row]) if place in lines else (start, [row])
+            for place, row in enumerate(rows)
+        ]
+    found_lines = sorted([*ended, *going], key=lambda line: line[0])
+    return [(axis.values[start : start + len(rows)], np.array(rows)) for start, rows in found_lines]
 
 
 def unjoined(found: Thresholds, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """A curve with a gap at each of its jumps.
 
-    A jump is a step of more than a twentieth of the range that was searched and five times the median step.
+    A jump is a step of more than FAR of the range that was searched and five times the median step.
     """
-    seen = np.log if found.range.scale == LOGARITHMIC else np.asarray
+    seen = _seen(found)
     steps = np.abs(np.diff(seen(y)))
     if steps.size < LEAST_STEPS or not np.isfinite(steps).any():
         return x, y
-    far = max(0.05 * float(np.ptp(seen(found.range.values))), 5.0 * float(np.nanmedian(steps)))
+    far = max(FAR * float(np.ptp(seen(found.range.values))), 5.0 * float(np.nanmedian(steps)))
     jumps = np.flatnonzero(steps > far) + 1
     return np.insert(x, jumps, np.nan), np.insert(y, jumps, np.nan)
 
@@ -123,6 +175,45 @@ def draw_either(axes: Axes, found: Thresholds, axis: Axis, chosen: np.ndarray, c
 def either_entry(count: int) -> Patch:
     edge = {"edgecolor": style.FORCE_COLOUR, "linestyle": (0, (1.2, 1.0)), "linewidth": 0.8}
     return Patch(facecolor=(*to_rgb(style.FORCE_COLOUR), 0.16), **edge, label=f"{EITHER} ({count})")
+
+
+def _seen(found: Thresholds) -> Callable:
+    return np.log if found.range.scale == LOGARITHMIC else np.asarray
+
+
+def shade(axes: Axes, found: Thresholds, axis: Axis, chosen: np.ndarray, colour: str) -> None:
+    """Shade where the motion rattles, trace by trace, joined as far as neighbours have as many such parts."""
+    x = found.column(axis.key)
+    below, above, crossing = found.rattles("_below"), found.rattles("_above"), found.column("crossing")
+    parts = []
+    for value in axis.values:
+        rows = np.flatnonzero(chosen & (x == value))
+        rows = rows[np.argsort(crossing[rows])]
+        first, last = found.range.values
+        places = [first, *(found.values[row] for row in rows if crossing[row] > 0), last]
+        sides = [below[rows[0]], *(above[row] for row in rows if crossing[row] > 0)] if rows.size else [False]
+        spans = zip(places, places[1:], sides, strict=False)
+        parts.append([(low, high) for low, high, rattles in spans if rattles])
+    far = FAR * float(np.ptp(found.range.values))
+    start = 0
+    for end in range(1, len(parts) + 1):
+        joined = end < len(parts) and len(parts[end]) == len(parts[end - 1])
+        if joined and np.abs(np.subtract(parts[end], parts[end - 1])).max(initial=0.0) <= far:
+            continue
+        along = axis.values[start:end]
+        # Half-way to the neighbours that are not joined, as cells of a map are.
+        ends = [0.5 * (axis.values[max(start - 1, 0)] + along[0])]
+        ends.append(0.5 * (along[-1] + axis.values[min(end, len(parts) - 1)]))
+        for place in range(len(parts[start])):
+            low, high = np.array([part[place] for part in parts[start:end]]).T
+            low, high = ([side[0], *side, side[-1]] for side in (low, high))
+            whole = [ends[0], *along, ends[1]]
+            axes.fill_between(whole, low, high, color=colour, alpha=SHADE, linewidth=0.0, zorder=0.5)
+        start = end
+
+
+def shade_entry(found: Thresholds) -> Patch:
+    return Patch(facecolor=(*to_rgb(style.FORCE_COLOUR), 2.0 * SHADE), label=f"{found.rattling_words} here")
 
 
 def draw_bars(axes: Axes, x: np.ndarray, lower: np.ndarray, upper: np.ndarray, colour: str) -> None:

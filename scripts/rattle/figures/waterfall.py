@@ -172,5 +172,5 @@ def _mark(axes: Axes, kept: list[float]) -> None:
 
 
 def _label(shown: Map) -> str:
-    relative = f"\n{style.RELATIVE}" if shown.is_relative else ""
-    return with_unit(f"amplitude of the {KINDS[shown.unit]}{relative}", shown.unit)
+    relative = "relative " if shown.is_relative else ""
+    return with_unit(f"amplitude of the {relative}{KINDS[shown.unit]}", shown.unit)

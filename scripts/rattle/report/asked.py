@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from html import escape
+from typing import Any
 from urllib.parse import quote
 
+from rattle.campaign_result import Axis, Campaign
 from rattle.keys import key_table
 from rattle.report import page
 from rattle.result_file import ResultFile
+from rattle.thresholds import thresholds
 
 # What matters most of a scene, in the order in which it is reported.
 IN_SHORT = (
@@ -30,6 +34,16 @@ DRIVEN = (
     ("oil", "temperature_celsius", "temperature of the oil"),
 )
 FOLLOWING = ("load", "lubricant", "kinematics", "contact")
+MOST_PAIRS = 6  # that the first line names
+# What the first line says of a scene without gears, with the words around the value.
+OF_SYMBOLS = (
+    ("load", "steady_force", "steady force {}"),
+    ("load", "force_amplitude", "amplitude {}"),
+    ("load", "force_amplitudes", "amplitudes {}"),
+    ("load", "frequency", "at {}"),
+    ("lubricant", "viscosity", "oil of {}"),
+    ("kinematics", "entrainment_speed", "drawn in at {}"),
+)
 
 
 def in_short(result: ResultFile) -> str:
@@ -57,6 +71,63 @@ def in_short(result: ResultFile) -> str:
     asked = f"Asked: {'; '.join(parts)}. " if parts else ""
     made = f"This makes: {'; '.join(results)}. " if results else ""
     return f"{asked}{made}All inputs stand below."
+
+
+def operating_point(result: ResultFile, gears: Sequence[Mapping[str, Any]] | None = None) -> str:
+    """The first line of a page: speed, oil and teeth; without gears the force and the oil.
+
+    `gears`: all pairs of a gearbox, of which the result is one.
+    """
+    spans = varied_ranges(result)
+
+    def value(group: str, name: str) -> str:
+        if f"{group}.{name}" in spans:
+            first, last, unit = spans[f"{group}.{name}"]
+            return f"{page.plain(first, '', 4)} to {page.plain(last, unit, 4)}"
+        given = result.input.get(group, {}).get(name)
+        if given is None:
+            return ""
+        key = key_table().get((group, name))
+        unit = key.unit if key else result.derived_units.get((group, name), "")
+        *others, last = given if isinstance(given, list) else [given]
+        return ", ".join([*(page.plain(one, "", 4) for one in others), page.plain(last, unit, 4)])
+
+    if "gear" not in result.input:
+        parts = [words.format(said) for group, name, words in OF_SYMBOLS if (said := value(group, name))]
+        sentence = ", ".join(parts).replace(", at ", " at ")
+        return f"{sentence[:1].upper()}{sentence[1:]}."
+    speed, oil = value("shaft", "speed_rpm"), value("oil", "temperature_celsius")
+    grade = [value("oil", f"viscosity_{at}_cst") for at in (40, 100)]
+    parts = [f"at {speed}"] if speed else []
+    parts += [f"oil {oil}"] if oil else []
+    if all(grade):
+        parts[-1] += f" ({grade[0].removesuffix(' mm2/s')} and {grade[1]} at 40 and 100 \N{DEGREE SIGN}C)"
+    gears = gears or [keys for group, keys in result.input.items() if group.partition("(")[0] == "gear"]
+    teeth = [f"{str(keys.get('name', '')).strip()} {keys['teeth_1']}/{keys['teeth_2']}" for keys in gears]
+    named = f"{', '.join(map(str.strip, teeth))} teeth"
+    parts.append(named if len(gears) <= MOST_PAIRS else f"{len(gears)} gear pairs")
+    sentence = ", ".join(parts).replace("mm2/s", "mm\N{SUPERSCRIPT TWO}/s")
+    return f"{sentence[:1].upper()}{sentence[1:]}."
+
+
+def varied_ranges(result: ResultFile) -> dict[str, tuple[float, float, str]]:
+    """First and last value of what a task varies, with the unit, by group.key."""
+    if isinstance(result, Campaign):
+        axes = [axis for axis in result.axes if axis.values.size]
+    elif result.task == "threshold":
+        found = thresholds(result)
+        axes = [found.range, *found.axes]
+    elif result.task == "sweep":
+        key, values = str(result.value("sweep", "key")).strip(), result[result.names[0]]
+        group = next((group for group, name in key_table() if name == key), "")
+        axes = [Axis(f"{group}.{key}", result.units[result.names[0]], "", values)]
+    else:
+        axes = []
+    return {
+        axis.key: (float(axis.values.min()), float(axis.values.max()), axis.unit)
+        for axis in axes
+        if axis.values.size
+    }
 
 
 def pairs(result: ResultFile) -> list[str]:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 # Units in which numbers are read more easily: from which size on, factor and name, the largest first.
 STEPS = {
     "m": ((1e-3, 1.0, "m"), (1e-8, 1e6, "\N{MICRO SIGN}m"), (1e-11, 1e9, "nm")),
-    "m/s": ((1e-2, 1.0, "m/s"), (1e-6, 1e3, "mm/s")),
+    "m/s": ((0.1, 1.0, "m/s"), (1e-6, 1e3, "mm/s")),
     "s": ((0.1, 1.0, "s"), (1e-5, 1e3, "ms")),
     "Pa": ((1e9, 1e-9, "GPa"), (1e5, 1e-6, "MPa")),
     "J": ((1e-2, 1.0, "J"), (1e-6, 1e3, "mJ")),
@@ -112,7 +112,12 @@ figcaption { font-size: .9rem; max-width: 46rem; margin-top: .3rem; }
   nav, .screen { display: none; }
   figure { display: inline-block; width: 86mm; margin: .3rem 3mm .3rem 0; vertical-align: top; }
   figcaption { font-size: 8pt; }
-  h2 { margin-top: 1.2rem; }
+  figure.main { width: 125mm; }
+  h1 { font-size: 16pt; }
+  h2 { margin-top: 1rem; font-size: 12pt; }
+  .class { font-size: 13pt; }
+  .verdict { padding: .3rem .8rem; margin: .4rem 0; }
+  table, table.dense { font-size: 8pt; line-height: 1.3; }
   .brief .appendix { display: none; }
   .appendix { break-before: page; columns: 2; column-gap: 7mm; font-size: 6.5pt; line-height: 1.3; }
   .appendix .appendix { break-before: auto; columns: auto; margin-top: .6rem; }
@@ -192,6 +197,12 @@ def fold(words: str, parts: Sequence[str], anchor: str = "") -> list[str]:
     return ["<details>", f"<summary>{heading(2, words, anchor)}</summary>", *parts, "</details>"]
 
 
+def section(words: str, sentences: Sequence[str]) -> list[str]:
+    """A heading with a paragraph for each sentence; nothing without any."""
+    said = [paragraph(sentence) for sentence in sentences if sentence]
+    return [heading(2, words), *said] if said else []
+
+
 def appendix(parts: Sequence[str]) -> list[str]:
     """Folds that begin on a new sheet in print."""
     return ['<section class="appendix">', *parts, "</section>"] if parts else []
@@ -236,22 +247,25 @@ def named(name: str, meaning: str) -> Cell:
     return Cell(f'{code(name)}<br><span class="note">{escape(meaning)}</span>') if meaning else code(name)
 
 
-def value(given: Any, unit: str = "", digits: int = DIGITS) -> Cell:
-    """A number or word with its unit as people read it; all digits are in the title of the cell."""
+def value(given: Any, unit: str = "", digits: int = DIGITS, beside: float | None = None) -> Cell:
+    """A number or word with its unit as people read it; all digits are in the title of the cell.
+
+    `beside`: the number whose unit it takes, if not its own.
+    """
     if isinstance(given, bool):
         return Cell("yes" if given else "no")
     if isinstance(given, list | tuple | np.ndarray):
         return Cell(f"{', '.join(map(value, given))}{_behind(UNIT_WORDS.get(unit, unit))}")
     if isinstance(given, str):
         return Cell(escape(given.strip()))
-    words, name = number_words(given, unit, digits)
+    words, name = number_words(given, unit, digits, beside)
     exact = str(given) if isinstance(given, int) else repr(float(given))
     return Cell(f'<span data-value="{exact}" title="{exact} {escape(unit)}">{words}{_behind(name)}</span>')
 
 
 def error(given: float, number: float, unit: str = "") -> Cell:
-    """The error of a number that is reported with all digits; a relative error belongs to 1."""
-    return value(stated_error(float(given), float(number), DIGITS), unit, ERROR_DIGITS)
+    """The error of a number that is reported with all digits, in its unit; a relative error belongs to 1."""
+    return value(stated_error(float(given), float(number), DIGITS), unit, ERROR_DIGITS, beside=float(number))
 
 
 def plain(given: float, unit: str, digits: int = DIGITS) -> str:
@@ -260,7 +274,9 @@ def plain(given: float, unit: str, digits: int = DIGITS) -> str:
     return re.sub(r"&times;10<sup>(.*?)</sup>", r"e\1", words) + (f" {name}" if name else "")
 
 
-def number_words(given: float, unit: str, digits: int = DIGITS) -> tuple[str, str]:
+def number_words(
+    given: float, unit: str, digits: int = DIGITS, beside: float | None = None
+) -> tuple[str, str]:
     """The digits of a number, as HTML, and the unit that they are in."""
     if isinstance(given, int):
         return str(given), UNIT_WORDS.get(unit, unit)
@@ -268,7 +284,7 @@ def number_words(given: float, unit: str, digits: int = DIGITS) -> tuple[str, st
     if not math.isfinite(number):
         return "unknown", ""
     for least, factor, other in STEPS.get(unit, ()):
-        if abs(number) >= least:
+        if abs(number if beside is None else beside) >= least:
             number, name = factor * number, other
             break
     words = f"{number:.{digits}g}"
@@ -293,8 +309,8 @@ def ranges(rows: Sequence[tuple[str, str, str, np.ndarray]]) -> str:
     )
 
 
-def drawing(draw: Callable[[], Figure], caption: str, salt: str) -> str:
-    """A figure with its caption, or the sentence that says why it cannot be drawn."""
+def drawing(draw: Callable[[], Figure], caption: str, salt: str, kind: str = "") -> str:
+    """A figure with its caption, or the sentence that says why it cannot be drawn; 'main': large in print."""
     try:
         with style.house_style(salt):
             stream = StringIO()
@@ -310,7 +326,7 @@ def drawing(draw: Callable[[], Figure], caption: str, salt: str) -> str:
     picture = re.sub(r"<metadata>.*?</metadata>", "", picture, count=1, flags=re.DOTALL)
     picture = re.sub(r' (?:width|height)="[\d.]+pt"', "", picture, count=2)
     picture = picture.replace("<svg", f'<svg role="img" aria-label="{escape(caption)}"', 1)
-    return f"<figure>\n{picture}\n<figcaption>{escape(caption)}</figcaption>\n</figure>"
+    return f"<figure{_kind(kind)}>\n{picture}\n<figcaption>{escape(caption)}</figcaption>\n</figure>"
 
 
 def _inner(cell: Any) -> str:

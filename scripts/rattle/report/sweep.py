@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -50,10 +50,11 @@ def stretches(result: Result) -> list[Stretch]:
     return found
 
 
-def verdict(result: Result) -> list[str]:
+def verdict(result: Result, sentences: Sequence[str]) -> list[str]:
+    """The classes that occur, and what is said before the figure."""
     failed = int((~np.isin(result["status"], SUCCESSES)).sum())
     words = ", ".join(names(result)) or "no class"
-    return [page.verdict_box(words, None, list(sentences_on(result)), doubt=failed > 0)]
+    return [page.verdict_box(words, None, sentences, doubt=failed > 0)]
 
 
 def names(result: Result) -> list[str]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from rattle.campaign_plan import GEAR
 from rattle.campaign_section import short_name
 from rattle.command import CommandError
 from rattle.figures import threshold as picture
@@ -20,16 +21,42 @@ from rattle.thresholds import Thresholds, thresholds, words_of_criterion
 MOST_ROWS = 100
 MOST_KINDS = 12
 KINDS = ("From, to", "Thresholds", "Least", "Largest", "Not verified")
+BEGINNING = "no impacts to impacts"
 MOST_SEEN = page.MOST_NUMBERS // (len(KINDS) - 1)
 
 
-def verdict(result: Result, summary: Summary | None) -> list[str]:
+def verdict(result: Result) -> list[str]:
+    """Where the most common change is, how many others there are, and how well they are known."""
     found = thresholds(result)
-    crossings = int((found.column("crossing") > 0).sum())
-    head = "1 threshold" if crossings == 1 else f"{crossings} thresholds" if crossings else "no threshold"
-    return [
-        page.verdict_box(head, None, list(sentences_on(found, summary)), doubt=bool(found.uncertain.any()))
-    ]
+    crossed = found.column("crossing") > 0
+    if not crossed.any():
+        return [page.verdict_box("No threshold", None, [first_sentence(found)], doubt=False)]
+    kind, count = Counter(found.kinds[crossed]).most_common(1)[0]
+    values = found.values[crossed & (found.kinds == kind)]
+    ends = [page.plain(float(end), found.range.unit, page.FEW_DIGITS) for end in (values.min(), values.max())]
+    where = f"at {ends[0]}" if count == 1 else f"between {ends[0]} and {ends[1]}"
+    head = f"Impacts begin {where}" if kind == BEGINNING else f"From {kind} {where}"
+    lacking, total = int(found.uncertain.sum()), int(crossed.sum())
+    sentences = [f"{total} threshold{'s' if total > 1 else ''}, {count} of this kind."]
+    if "verified_below" in result:
+        sentences.append(f"{lacking} not numerically verified." if lacking else "All numerically verified.")
+    return [page.verdict_box(head, None, sentences, doubt=lacking > 0)]
+
+
+def sentences_of(result: Result, summary: Summary | None) -> list[str]:
+    return list(sentences_on(thresholds(result), summary))
+
+
+def first_sentence(found: Thresholds) -> str:
+    """What was looked for, and where."""
+    first, last = (page.plain(float(end), found.range.unit) for end in found.range.values)
+    lines = int(np.unique(found.column("trace")).size)
+    keys = " and ".join(map(short_name, found.varied))
+    of_lines = "" if lines == 1 else f", on {lines} traces, one for each value of {keys}"
+    return (
+        f"Looked for: {words_of_criterion(found)}, along the {short_name(found.key)} from {first} to "
+        f"{last}{of_lines}."
+    )
 
 
 def meanings(result: Result) -> list[str]:
@@ -41,21 +68,41 @@ def meanings(result: Result) -> list[str]:
 
 
 def numbers(result: Result) -> list[str]:
-    """The most common kinds of change: how many, and where they are least and largest."""
-    return page.numbers(kinds_of(thresholds(result)), KINDS)
+    """Of each pair where its changes are; the most common kinds, how many, least and largest."""
+    found = thresholds(result)
+    return [*pairs_of(found), *page.numbers(kinds_of(found), KINDS)]
+
+
+def pairs_of(found: Thresholds) -> list[str]:
+    """Of each gear pair where its most common change is least and largest; nothing without pairs."""
+    if GEAR not in found.varied:
+        return []
+    crossed, gears = found.column("crossing") > 0, found.column(GEAR)
+    others = [key for key in found.varied if key != GEAR]
+    rows = []
+    for gear in np.unique(gears):
+        own = np.flatnonzero(crossed & (gears == gear))
+        if not own.size:
+            rows.append([found.words_of_value(GEAR, gear), "none", "-", "-"])
+            continue
+        kind = Counter(found.kinds[own]).most_common(1)[0][0]
+        same = own[found.kinds[own] == kind]
+        ends = same[[np.argmin(found.values[same]), np.argmax(found.values[same])]]
+        cells = []
+        for row in ends:
+            at = " and ".join(found.words_of_value(key, float(found.column(key)[row])) for key in others)
+            value = page.plain(float(found.values[row]), found.range.unit, page.FEW_DIGITS)
+            cells.append(f"{value} at {at}" if at else value)
+        rows.append([found.words_of_value(GEAR, gear), kind, *cells])
+    kinds = ("", "", "number", "number")
+    return [page.table(("Gear", "Change", "Least", "Largest"), rows, kinds=kinds, kind="dense")]
 
 
 def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
     unit = found.range.unit
     crossed = found.column("crossing") > 0
     lines = int(np.unique(found.column("trace")).size)
-    first, last = (page.plain(float(end), unit) for end in found.range.values)
-    keys = " and ".join(map(short_name, found.varied))
-    of_lines = "" if lines == 1 else f", on {lines} traces, one for each value of {keys}"
-    yield (
-        f"Looked for: {words_of_criterion(found)}, along the {short_name(found.key)} from {first} to "
-        f"{last}{of_lines}."
-    )
+    yield first_sentence(found)
     for kind, count in Counter(found.kinds[crossed]).most_common(3):
         values = found.values[crossed & (found.kinds == kind)]
         least, largest = (page.plain(float(end), unit) for end in (values.min(), values.max()))
@@ -151,7 +198,10 @@ def tables(result: Result) -> list[str]:
 
 
 def figures(result: Result) -> list[str]:
-    caption = "Thresholds over the varied keys. Bars: lower to upper; open marks: an end is not verified."
+    caption = (
+        "Thresholds over the varied keys. Bars: lower to upper; open marks: not numerically verified. "
+        "Shaded: the side that rattles, darker where several do. A line ends where the motion changes kind."
+    )
     try:
         found, held = picture.cut(thresholds(result), {}, 2)
     except CommandError:

@@ -1,0 +1,42 @@
+"""Limits of the film force that a project sets, pair by pair."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Mapping
+from pathlib import Path
+
+from rattle.command import CommandError
+
+HEAD = ("gear", "film_force_rms")
+Limits = Mapping[str, float]
+
+
+def read_limits(path: Path) -> dict[str, float]:
+    """Limits [N rms] by the names of gear pairs, of a CSV file with the head gear,film_force_rms."""
+    try:
+        lines = list(csv.reader(path.read_text(encoding="utf-8-sig").splitlines()))
+    except (OSError, UnicodeDecodeError) as fault:
+        raise CommandError(f"{path} cannot be read: {getattr(fault, 'strerror', fault) or fault}.") from None
+    rows = [(number, [cell.strip() for cell in row]) for number, row in enumerate(lines, 1) if "".join(row)]
+    if not rows or tuple(rows[0][1]) != HEAD:
+        raise CommandError(f"{path}:1: the head has to be {','.join(HEAD)}.")
+    limits: dict[str, float] = {}
+    for number, row in rows[1:]:
+        try:
+            gear, value = row[0], float(row[1])
+        except (IndexError, ValueError):
+            raise CommandError(f"{path}:{number}: a name and a number [N] have to stand here.") from None
+        if not math.isfinite(value) or value <= 0.0 or gear in limits:
+            raise CommandError(f"{path}:{number}: a limit is a positive number, one for each gear.")
+        limits[gear] = value
+    return limits
+
+
+def words(gear: str, force: float, limits: Limits) -> str:
+    """As in 'above its limit of 10 N'; nothing without a limit."""
+    if gear not in limits:
+        return ""
+    place = "above" if force > limits[gear] else "within"
+    return f"{place} its limit of {limits[gear]:.4g} N"
