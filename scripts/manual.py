@@ -63,7 +63,7 @@ def man_page(help_text: str, keys: Keys, version: str) -> Iterator[str]:
         )
     yield ".SH INPUT KEYS"
     yield "SI units. In brackets: unit, default."
-    yield "How class, film regime and the scene of a gear pair are found stands in"
+    yield "All keys and quantities with their tables:"
     yield r".I share/doc/rattle/keys.md ."
     group = ""
     for (owner, name), key in keys.items():

@@ -47,7 +47,7 @@ def design() -> int:
 def analyse() -> int:
     """Tell the indices of a result, and draw them."""
     parser = argparse.ArgumentParser(
-        description="Tell how much of the variance of what a campaign recorded each varied key explains: "
+        description="Print how much of the variance of what a campaign recorded each varied key explains: "
         "alone (first order) and with all others (total), with 95 % intervals; and how likely a pair is to "
         "rattle. 'sensitivity.py design INPUT' writes the campaign; of one with a sample only the "
         "probability is reported."

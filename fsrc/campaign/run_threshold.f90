@@ -276,8 +276,8 @@ contains
                                              'not repeat, to the width of a bracket, or it was lost (columns '// &
                                              'motion_end_below, motion_end_above)')
       if (counts(4) > 0_int64) call log%line('  '//integer_text(counts(4))//' of '//counted(outcome%uncrossed, 'trace')// &
-                                             ' without any have motions of another side beside those from rest, which other '// &
-                                             'starts lead to: from last_above to last_below')
+                                             ' without any have motions of another side beside those from rest, found from '// &
+                                             'other starts: from last_above to last_below')
       if (sum(counts) > 0_int64 .and. scene%solver%starts > 1) &
          call log%line('  '//counted(scene%solver%starts, 'start')//' are no proof of others'' absence')
       if (outcome%failed > 0_int64) call log%line('  scenes that failed are a kind of their own: where they begin is a '// &

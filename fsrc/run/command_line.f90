@@ -252,7 +252,7 @@ contains
              '  --check                validate, show resolved and derived values, run nothing'//end_of_line// &
              '  --template [NAME]      commented input: gearbox, motion, film, sweep, campaign, threshold, or one &group'// &
              end_of_line// &
-             '  --keys                 print tables of all keys and quantities, which input/README.md explains'//end_of_line// &
+             '  --keys                 print tables of all keys and quantities, as in input/KEYS.md'//end_of_line// &
              '  --quantities           print the table of quantities as CSV'//end_of_line// &
              '  --set group.key=value  override a key in every file; may be repeated; @FILE has one in each line;'//end_of_line// &
              '                         gear(2).key is that of the second gear pair alone, gear.key that of all'//end_of_line// &

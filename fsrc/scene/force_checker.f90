@@ -46,7 +46,7 @@ contains
       end if
       do i = 2, size(orders)
          if (any(nint(orders(:i - 1)) == nint(orders(i)))) then
-            call input%refuse('load.force_orders', 'harmonic '//integer_text(nint(orders(i)))//' stands there twice')
+            call input%refuse('load.force_orders', 'harmonic '//integer_text(nint(orders(i)))//' is given twice')
             return
          end if
       end do
@@ -131,7 +131,7 @@ contains
       call check_lengths(input, 'shaft', lists)
       do i = 2, size(orders)
          if (any(.not. abs(orders(:i - 1) - orders(i)) > 0.0_dp)) then
-            call input%refuse('shaft.orders', 'engine order '//real_text(orders(i))//' stands there twice')
+            call input%refuse('shaft.orders', 'engine order '//real_text(orders(i))//' is given twice')
             return
          end if
       end do

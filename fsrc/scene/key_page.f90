@@ -1,5 +1,5 @@
 !> The key table as text: a commented input (--template) and the tables of all keys and quantities (--keys), which
-!> stand in input/README.md between the prose of that page; and the quantities as CSV (--quantities).
+!> stand in input/KEYS.md; and the quantities as CSV (--quantities).
 module key_page
    use input_key, only: allowed_text, key_t, list_kind, sensible_text, text_kind
    use key_table, only: find_key, keys, optional_groups, starts_group

@@ -2,7 +2,7 @@
 !>
 !> The runtime's own namelist reader stops at the first fault, takes a wrong value in the last group for
 !> the end of the file, and accepts misspelt groups and repeated keys without a word; hence this one. It reads
-!> what the standard has, but for what input/README.md lists.
+!> what the standard has, but for what input/NAMELISTS.md lists.
 module namelist_text
    use errors, only: fault_list_t
    use key_table, only: resembles_group

@@ -102,7 +102,7 @@ def fit_encoders(input: Path, recorded: Mapping[str, Any], gear: str | None = No
     half = 0.5 * math.hypot(_width(ratio), _width(asdict(seen.deceleration)) / lever)
     per_inertia = unit * values[drag] / inertia
     notes += [
-        f"Drag over inertia is {per_inertia:.4g} 1/s2; flights tell this ratio alone. {drag} is that of "
+        f"Drag over inertia is {per_inertia:.4g} 1/s2; flights give this ratio alone. {drag} is that of "
         f"{INERTIA} = {inertia:.4g} of the input.",
         f"Were the drag of the input right, {torque:.4g} N m, {INERTIA} would be {torque / per_inertia:.4g}, "
         f"{torque / (per_inertia + half):.4g} to {torque / max(per_inertia - half, 1e-300):.4g} kg m2.",

@@ -9,7 +9,7 @@ from pathlib import Path
 
 _HERE = Path(__file__).resolve().parent
 # Where an installed package has the page, and where the repository has it.
-PAGES = (_HERE / "keys.md", _HERE.parents[1] / "input" / "README.md")
+PAGES = (_HERE / "keys.md", _HERE.parents[1] / "input" / "KEYS.md")
 _GROUP = re.compile(r"## &(\w+)$")
 _TASKS = re.compile(r"For (`.+`):$")
 _KEY = re.compile(r"\| `(\w+)` \|")

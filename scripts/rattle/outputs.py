@@ -123,7 +123,7 @@ def _move(new: Path, path: Path, overwrite: bool) -> None:
     try:
         os.link(new, path)
     except FileExistsError:
-        raise CommandError(f"{path} was written by somebody else in the meantime; it is kept.") from None
+        raise CommandError(f"{path} was written by another program in the meantime; it is kept.") from None
     except OSError as fault:
         if fault.errno not in NO_LINKS:
             raise

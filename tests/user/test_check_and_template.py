@@ -178,7 +178,7 @@ def test_page_of_keys(run, repository: Path, tmp_path: Path) -> None:
     assert [row.split(",")[0] for row in table[1:]] == re.findall(
         r"^\| `(\w+)` \|", quantities, flags=re.MULTILINE
     )
-    page = (repository / "input" / "README.md").read_text()
+    page = (repository / "input" / "KEYS.md").read_text()
     assert re.findall(r"^<!-- tables.*?-->\n(.*)^<!-- end of tables -->", page, re.M | re.S) == [ended.stdout]
 
 

@@ -42,7 +42,7 @@ def test_the_load_of_the_paper(law: str, peak: float, film: float, canonical: Pa
     assert told["verification"] == "verified" and told["harmonic_count"] == 6
     assert told["acceleration_maximum"] == pytest.approx(peak, rel=0.015)
     assert told["film_minimum"] == pytest.approx(film, rel=0.04)
-    page = (canonical.parents[1] / "README.md").read_text().partition("elastohydrodynamic.nml")[2]
+    page = (canonical.parent / "FILM_LAWS.md").read_text().partition("elastohydrodynamic.nml")[2]
     for words in (
         f"{told['acceleration_maximum']:.0f}",
         f"{1e6 * told['film_minimum']:.2f}",

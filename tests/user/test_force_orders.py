@@ -204,7 +204,7 @@ def test_rows_and_sweeps_over_the_scale_are_the_single_scenes(run, scene_text, t
         ),
         (ORDERS | {"force_orders": "1, 2"}, ["as many values as force_orders has (2)", "as many values as"]),
         (ORDERS | {"force_orders": "1, 2.5, 3"}, ["harmonics are whole numbers"]),
-        (ORDERS | {"force_orders": "1, 2, 2"}, ["harmonic 2 stands there twice"]),
+        (ORDERS | {"force_orders": "1, 2, 2"}, ["harmonic 2 is given twice"]),
         (ORDERS | {"force_orders": "0, 1, 2"}, ["allowed: numbers >= 1.0 and <= 128.0"]),
         (ORDERS | {"force_orders": "1, 2, 30"}, ["the highest harmonic of the force needs at least 120"]),
     ],

@@ -307,7 +307,7 @@ def test_what_follows_is_not_given(more: str, check) -> None:
             "",
             "&shaft: this group is required",
         ),
-        ("orders = 2.0", "orders = 2, 2", "6: &shaft orders: engine order 2.0 stands there twice"),
+        ("orders = 2.0", "orders = 2, 2", "6: &shaft orders: engine order 2.0 is given twice"),
         (
             "viscosity_100_cst = 9.6",
             "viscosity_100_cst = 60",
@@ -441,9 +441,9 @@ def test_faults_of_a_measured_cycle(check, tmp_path: Path) -> None:
 
 
 def test_the_page_works_the_ready_pair_through(run, repository: Path, tmp_path: Path) -> None:
-    """The numbers that the page of keys tells of loose_pair.nml are those of --check."""
+    """The numbers that the page on gears has of loose_pair.nml are those of --check."""
     told = derived(run("--check", repository / "input" / "loose_pair.nml", cwd=tmp_path))
-    page = (repository / "input" / "README.md").read_text()
+    page = (repository / "input" / "GEARS.md").read_text()
     rows = re.findall(r"^\| `(contact|kinematics|load)\.(\w+)`[^|]*\|[^|]*\| ([\d.]+)[^|]*\|$", page, re.M)
     assert len(rows) == 7
     for group, key, value in rows:

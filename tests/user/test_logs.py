@@ -600,7 +600,7 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
             if unsure
             else None,
             f"  {others} of {counted(without, 'trace')} without any have motions of another side beside "
-            "those from rest, which other starts lead to: from last_above to last_below"
+            "those from rest, found from other starts: from last_above to last_below"
             if others
             else None,
             f"  {counted(starts, 'start')} are no proof of others' absence",

@@ -258,7 +258,7 @@ def run(arguments: argparse.Namespace) -> int:
     recorded = options.read(arguments, notes)
     reference = options.reference_name(arguments)
     if reference is None:
-        raise RecordingError("a run-up needs the channel that tells the angle: --angle, --tacho or --speed.")
+        raise RecordingError("a run-up needs the channel with the angle: --angle, --tacho or --speed.")
     shaft_channel = choose(recorded, reference)
     shaft = options.angle_of(arguments, shaft_channel)
     notes += shaft.notes
