@@ -79,7 +79,7 @@ STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
 VPATH := $(addprefix fsrc/,$(FOLDERS)) fsrc tests/unit tests/benchmarks tests/stress
 
 .DEFAULT_GOAL := all
-.PHONY: all run test test-long unit unit-debug user user-long lint debug python bench bench-build bench-changed trends hashes stress stress-sample faults faults-sample touched sanitize mutants release-check doc test-cluster compilers clean install uninstall help format pages pictures FORCE
+.PHONY: all run test test-long unit unit-debug user user-long lint debug python bench bench-build bench-changed trends measured hashes stress stress-sample faults faults-sample touched sanitize mutants release-check doc test-cluster compilers clean install uninstall help format pages pictures FORCE
 
 all: $(BUILD)/rattle
 
@@ -92,6 +92,7 @@ help:
 	@echo 'make debug        build with every run-time check as $(BUILD)/debug/rattle'
 	@echo 'make python       Python environment and the module of the Fortran kernels'
 	@echo 'make trends       trends that test stands report, as the program has them'
+	@echo 'make measured     what was measured of rebound and onset beside what the program computes'
 	@echo 'make hashes       hashes of what many runs write, as $(BUILD)/hashes.json, or held against those of another build (AGAINST=FILE)'
 	@echo 'make bench        speed of the program beside that of others, as tables; make bench-changed: its last'
 	@echo 'make stress       100000 random scenes: what users are told of them, and every engine (SCENES=N)'
@@ -101,7 +102,7 @@ help:
 	@echo 'make sanitize     unit tests and small inputs under the sanitizers of the compiler for addresses and undefined behaviour'
 	@echo 'make test-cluster campaigns under Open MPI and Slurm on this machine'
 	@echo 'make compilers    gfortran 14 and flang 19 in a Debian 13 of their own, against the program of this machine'
-	@echo 'make pages        write the tables of input/README.md and scripts/rattle/quantities.csv anew'
+	@echo 'make pages        write the tables of input/KEYS.md and scripts/rattle/quantities.csv anew'
 	@echo 'make pictures     draw the pictures of the README anew'
 	@echo 'make format       bring Fortran and Python into the one format'
 	@echo 'make install      install program, Python package, man page and completion below PREFIX=$(PREFIX)'
@@ -266,6 +267,11 @@ bench-changed: bench-build
 trends: $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(PYTHON) tests/trends/run_trends.py
 
+# What was measured beside what the program computes: tables and pictures of tests/measured.
+measured: $(BUILD)/rattle $(BUILD)/kernels/built
+	@$(PYTHON) tests/measured/restitution/run_restitution.py
+	@$(PYTHON) tests/measured/onset/run_onset.py
+
 # Do two builds write the same results? Of the one: make hashes; of the other: make hashes AGAINST=FILE. Two minutes on two cores.
 hashes: $(BUILD)/rattle $(PYTHON_ENV)/installed
 	@$(PYTHON) tests/reference/result_hashes.py $(BUILD)/rattle $(if $(AGAINST),--against $(AGAINST),--write $(BUILD)/hashes.json)
@@ -333,7 +339,7 @@ pictures: $(BUILD)/rattle $(BUILD)/newmark_outcomes $(BUILD)/kernels/built
 
 pages: $(BUILD)/rattle
 	@$(BUILD)/rattle --keys > $(BUILD)/tables.md
-	@sed -i -e '/^<!-- tables/,/^<!-- end of tables/{//!d}' -e '/^<!-- tables/r $(BUILD)/tables.md' input/README.md
+	@sed -i -e '/^<!-- tables/,/^<!-- end of tables/{//!d}' -e '/^<!-- tables/r $(BUILD)/tables.md' input/KEYS.md
 	@$(BUILD)/rattle --quantities > scripts/rattle/quantities.csv
 
 release-check:

@@ -27,8 +27,8 @@ install -D -m 755 "$build/rattle" "$tree/$scripts/rattle"
 package=$tree/$packages/rattle
 mkdir -p "$package"
 tar -C scripts/rattle --dereference --exclude=__pycache__ --exclude='*.so' -cf - . | tar -C "$package" -xf -
-cp input/README.md "$package/keys.md"
-install -D -m 644 input/README.md "$tree/share/doc/rattle/keys.md"
+cp input/KEYS.md "$package/keys.md"
+install -D -m 644 input/KEYS.md "$tree/share/doc/rattle/keys.md"
 scripts/build_kernels.sh "$python" "$build/installed" "$objects" "$libraries" "$compiler" "$build" "$package"
 # Linux itself takes no blank and no more than 127 characters here; the shell reads the second line then, and to Python
 # this and the third are the beginning of the text that says what the script does.
@@ -37,7 +37,7 @@ case $python in
     *) plain=yes ;;
 esac
 [ "${#python}" -lt 126 ] || plain=
-for name in calibrate campaign classify compare export plot recording report sensitivity; do
+for name in calibrate campaign classify compare countermeasures export listen plot recording report sensitivity; do
     {
         if [ "$plain" ]; then
             printf '#!%s\n' "$python"

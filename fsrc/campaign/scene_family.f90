@@ -8,7 +8,7 @@ module scene_family
    use kinds, only: dp
    use many_motions, only: solve_motions
    use motion_branch, only: motion_family_t
-   use problem, only: problem_of, problem_t
+   use problem, only: problem_of, problem_t, state_size
    use quantities, only: quantity_code, quantity_table
    use scene_status, only: is_success, status_complete
    use scene_types, only: scene_t
@@ -54,6 +54,7 @@ module scene_family
       procedure :: value_at
       procedure :: share_of
       procedure :: problem_at
+      procedure :: has_size
       procedure :: judge
       procedure :: map => map_scenes
       procedure :: sizes => sizes_of_scene
@@ -162,6 +163,7 @@ contains
       type(judged_start_t), allocatable :: judged(:)
       real(dp) :: values(size(self%positions), size(shares)), quantities(size(self%scene%campaign%record), size(shares))
       type(ending_t) :: endings(size(shares))
+      type(motion_state_t) :: own(size(shares))
       type(point_t) :: point
       integer :: i
 
@@ -169,8 +171,12 @@ contains
       if (allocated(self%error) .or. must_stop()) return
       do i = 1, size(shares)
          values(:, i) = [self%values, self%value_at(shares(i))]
+         ! A state of damped teeth is none of teeth without damping, and the other way round: these start where their scene says.
+         own(i) = starts(i)
+         if (.not. allocated(own(i)%numbers)) cycle
+         if (.not. self%has_size(shares(i), size(own(i)%numbers))) own(i) = motion_state_t()
       end do
-      call solve_starts(self%scene, self%positions, values, starts, self%space, quantities, endings, self%error)
+      call solve_starts(self%scene, self%positions, values, own, self%space, quantities, endings, self%error)
       if (allocated(self%error) .or. must_stop()) return
       do i = 1, size(shares)
          if (size(quantities, 1) > 1) &
@@ -182,6 +188,17 @@ contains
          judged(i)%state = endings(i)%numbers
       end do
    end function judge
+
+   !> Whether the state of a scene has so many numbers.
+   logical function has_size(self, share, numbers)
+      class(scene_family_t), intent(in) :: self
+      real(dp), intent(in) :: share
+      integer, intent(in) :: numbers
+      type(problem_t) :: problem
+
+      call self%problem_at(share, problem, has_size)
+      if (has_size) has_size = state_size(problem) == numbers
+   end function has_size
 
    !> Images of states at places of their own; neighbours are solved together.
    subroutine map_scenes(self, periods, accuracy, shares, states, mapped)
@@ -206,6 +223,7 @@ contains
             problems(i) = problems(before)
          else
             call self%problem_at(shares(i), problems(i), mapped)
+            if (mapped) mapped = size(states, 1) == state_size(problems(i))
             if (.not. mapped) return
             before = i
          end if

@@ -10,7 +10,7 @@
 !>
 !> H is the minimum film thickness, Phi that of the Reynolds iso-viscous film. The flanks are compressed by M c in all, of which c
 !> is a number of the flank but for the width of the contact, - (2/pi) ln(0.516 H + 0.245 M). The constants are fitted to films
-!> solved in nodes: what they were fitted to, and how far they are off, stands in input/README.md.
+!> solved in nodes: what they were fitted to, and how far they are off, stands in input/FILM_LAWS.md.
 module elastohydrodynamic_closure
    use constants, only: pi
    use elementary_functions, only: exponentials, logarithm, logarithms
@@ -138,20 +138,20 @@ contains
       real(dp), intent(out) :: by_load(n)
       !> Whether there is one, a code of module squeeze_of_load
       integer, intent(out) :: outcome(n)
-      real(dp), dimension(most_films, 2) :: factor, factor_by_film, factor_by_load, exponent, growth
-      real(dp), dimension(most_films) :: held, group, a, a_by_group
+      real(dp), dimension(most_films, 2) :: bent, oil, factor_by_film, factor_by_load
+      real(dp), dimension(2*most_films) :: exponent, growth
+      real(dp), dimension(most_films) :: held, stiffness, group, a, a_by_group
       real(dp) :: scale, change
-      integer :: flow, i
+      integer :: i
 
       held(:n) = max(load, 0.0_dp)
-      call factors_of(closure, n, film, held, factor, factor_by_film, factor_by_load)
-      exponent(:n, 1) = -factor(:n, 1)
-      exponent(:n, 2) = factor(:n, 1) - factor(:n, 2)
-      do flow = 1, 2
-         call exponentials(n, exponent(:, flow), growth(:, flow))
-      end do
+      call factors_of(closure, n, film, held, bent, oil, factor_by_film, factor_by_load)
+      exponent(:n) = -oil(:n, 1)
+      exponent(n + 1:2*n) = oil(:n, 1) - oil(:n, 2)
+      call exponentials(2*n, exponent, growth)
       do i = 1, n
-         group(i) = load(i)*film(i)*growth(i, 1)/12.0_dp
+         stiffness(i) = film(i)*growth(i)/(12.0_dp*bent(i, 1))
+         group(i) = load(i)*stiffness(i)
          call iso_viscous_squeeze(group(i), a(i), a_by_group(i), outcome(i))
          if (outcome(i) == load_carried) cycle
          a(i) = 0.0_dp
@@ -159,13 +159,13 @@ contains
       end do
       !$omp simd private(scale, change)
       do i = 1, n
-         scale = sqrt(0.5_dp*film(i))*growth(i, 2)
+         scale = sqrt(0.5_dp*film(i)/bent(i, 2))*(bent(i, 1)/bent(i, 2))*growth(n + i)
          change = scale*a_by_group(i)
          velocity(i) = scale*a(i)
          by_film(i) = velocity(i)*(0.5_dp/film(i) + factor_by_film(i, 1) - factor_by_film(i, 2)) + &
                       change*group(i)*(1.0_dp/film(i) - factor_by_film(i, 1))
          by_load(i) = velocity(i)*(factor_by_load(i, 1) - factor_by_load(i, 2)) + &
-                      change*(film(i)*growth(i, 1)/12.0_dp - group(i)*factor_by_load(i, 1))
+                      change*(stiffness(i) - group(i)*factor_by_load(i, 1))
       end do
    end subroutine closure_velocities
 
@@ -259,7 +259,7 @@ contains
       type(closure_t), intent(in) :: closure
       !> M > 0 [-]
       real(dp), intent(in) :: load
-      real(dp), dimension(most_films, 2) :: factor, by_film, by_load
+      real(dp), dimension(most_films, 2) :: bent, oil, by_film, by_load
       real(dp) :: still, slope, place, least, step
       integer :: pass
 
@@ -268,8 +268,8 @@ contains
       place = least
       do pass = 1, most_passes
          film = exp(place)
-         call factors_of(closure, 1, [film], [load], factor, by_film, by_load)
-         step = (factor(1, 1) + least - place)/(1.0_dp - by_film(1, 1)*film)
+         call factors_of(closure, 1, [film], [load], bent, oil, by_film, by_load)
+         step = (log(bent(1, 1)) + oil(1, 1) + least - place)/(1.0_dp - by_film(1, 1)*film)
          place = place + step
          if (abs(step) <= last_step*max(1.0_dp, abs(place))) exit
       end do
@@ -404,59 +404,63 @@ contains
    end function is_fitted
 
    !> Factors of the flows of many films and loads: of g_r and of g_s.
-   pure subroutine factors_of(closure, n, film, load, factor, by_film, by_load)
+   pure subroutine factors_of(closure, n, film, load, bent, oil, by_film, by_load)
       type(closure_t), intent(in) :: closure
       !> How many, at most most_films
       integer, intent(in) :: n
       !> H > 0 and M >= 0 [-]
       real(dp), intent(in) :: film(n)
       real(dp), intent(in) :: load(n)
-      !> ln g of the first n, and its slopes in H and M [-]
-      real(dp), intent(out) :: factor(most_films, 2)
+      !> Of the first n, what flanks are bent by, g_r by its power 1 and g_s by 3/2, and ln of what oil adds to them [-]
+      real(dp), intent(out) :: bent(most_films, 2)
+      real(dp), intent(out) :: oil(most_films, 2)
+      !> Slopes of ln g in H and M [-]
       real(dp), intent(out) :: by_film(most_films, 2)
       real(dp), intent(out) :: by_load(most_films, 2)
       real(dp), parameter :: bend(2) = [rolling_bend, squeeze_bend], pressure(2) = [rolling_pressure, squeeze_pressure]
       real(dp), parameter :: of_bend(2) = [1.0_dp, squeeze_exponent], of_oil(2) = [rolling_exponent, 1.0_dp]
-      real(dp), dimension(most_films) :: at, thicker, slope, bent, limited_by_s
-      real(dp), dimension(most_films) :: q, q_by_film, q_by_load
-      real(dp) :: inverse_square, inverse, change, limited, s, squares, share
+      real(dp), dimension(2*most_films) :: at, thicker, slope
+      real(dp), dimension(most_films) :: s, q_by_film, q_by_load, limited_by_s
+      real(dp) :: inverse_square, inverse, q, change, limited, squares, share, steeper
       integer :: flow, i
 
-      !$omp simd private(inverse_square, inverse)
+      !$omp simd private(inverse_square, inverse, q)
       do i = 1, n
          inverse_square = 1.0_dp/(2.0_dp*film(i) + 8.0_dp/pi*load(i))
          inverse = sqrt(inverse_square)
-         q(i) = load(i)*inverse
-         q_by_film(i) = -q(i)*inverse_square
-         q_by_load(i) = inverse - q(i)*inverse_square*(4.0_dp/pi)
+         q = load(i)*inverse
+         q_by_film(i) = -q*inverse_square
+         q_by_load(i) = inverse - q*inverse_square*(4.0_dp/pi)
+         at(i) = rolling_pressure*q
+         at(n + i) = squeeze_pressure*q
+         s(i) = load(i)/film(i)
+         limited_by_s(i) = 0.0_dp
       end do
-      do flow = 1, 2
-         at(:n) = pressure(flow)*q(:n)
-         bent(:n) = 1.0_dp + bend(flow)*(load/film)
-         call thicken_many(closure, n, at, thicker, slope)
-         call logarithms(n, bent, factor(:, flow))
-         limited_by_s = 0.0_dp
-         if (flow == 1 .and. closure%viscosity_law /= viscosity_constant) then
-            !$omp simd private(s, squares, limited, share)
-            do i = 1, n
-               s = load(i)/film(i)
-               squares = min(thicker(i)**2 + s**2, beyond_all)
-               limited = 1.0_dp + rolling_limit*squares**2
-               share = 1.0_dp/sqrt(sqrt(limited))
-               limited = rolling_limit*squares/limited
-               slope(i) = share*(1.0_dp - limited*thicker(i)**2)*slope(i)
-               thicker(i) = share*thicker(i)
-               limited_by_s(i) = -rolling_exponent*limited*s*thicker(i)
-            end do
-         end if
-         !$omp simd private(change)
+      ! Both flows at once: what many numbers go through one by one takes its time, not its number of operations.
+      call thicken_many(closure, 2*n, at, thicker, slope)
+      if (closure%viscosity_law /= viscosity_constant) then
+         !$omp simd private(squares, limited, share)
          do i = 1, n
-            change = (of_bend(flow)*bend(flow)/bent(i) + limited_by_s(i))/film(i)
-            factor(i, flow) = of_bend(flow)*factor(i, flow) + of_oil(flow)*thicker(i)
-            slope(i) = of_oil(flow)*pressure(flow)*slope(i)
-            by_film(i, flow) = slope(i)*q_by_film(i) - change*(load(i)/film(i))
-            by_load(i, flow) = slope(i)*q_by_load(i) + change
+            squares = min(thicker(i)**2 + s(i)**2, beyond_all)
+            limited = 1.0_dp + rolling_limit*squares**2
+            share = 1.0_dp/sqrt(sqrt(limited))
+            limited = rolling_limit*squares/limited
+            slope(i) = share*(1.0_dp - limited*thicker(i)**2)*slope(i)
+            thicker(i) = share*thicker(i)
+            limited_by_s(i) = -rolling_exponent*limited*s(i)*thicker(i)
          end do
+      end if
+      do flow = 1, 2
+         !$omp simd private(change, steeper)
+         do i = 1, n
+            bent(i, flow) = 1.0_dp + bend(flow)*s(i)
+            oil(i, flow) = of_oil(flow)*thicker(n*(flow - 1) + i)
+            change = (of_bend(flow)*bend(flow)/bent(i, flow) + limited_by_s(i))/film(i)
+            steeper = of_oil(flow)*pressure(flow)*slope(n*(flow - 1) + i)
+            by_film(i, flow) = steeper*q_by_film(i) - change*s(i)
+            by_load(i, flow) = steeper*q_by_load(i) + change
+         end do
+         limited_by_s(:n) = 0.0_dp
       end do
    end subroutine factors_of
 
@@ -483,13 +487,13 @@ contains
    !> The same at many pressures.
    pure subroutine thicken_many(closure, n, pressure, thicker, slope)
       type(closure_t), intent(in) :: closure
-      !> How many, at most most_films
+      !> How many, at most two for each film
       integer, intent(in) :: n
       !> P [-]
       real(dp), intent(in) :: pressure(n)
       real(dp), intent(out) :: thicker(n)
       real(dp), intent(out) :: slope(n)
-      real(dp), dimension(most_films) :: base, exponent, growth
+      real(dp), dimension(2*most_films) :: base, exponent, growth
 
       if (closure%viscosity_law == viscosity_roelands) then
          base(:n) = 1.0_dp + closure%pressure_ratio*pressure

@@ -6,7 +6,7 @@ module handed_motions
    use known_motions, only: settled_motion_t
    use other_motions, only: follow_on, solve_trials, start_trial_t
    use prepared_scene, only: prepared_scene_t
-   use problem, only: problem_t
+   use problem, only: of_velocity, problem_t, state_size
    use rattle_class, only: class_irregular
    use scene_group, only: scene_group_t
    use signals, only: must_stop
@@ -122,7 +122,9 @@ contains
       type(problem_t), intent(in) :: from
       real(dp), allocatable :: state(:)
 
-      state = motion%states(:, 1)
+      ! Where only one of both has damped teeth, their states differ in size.
+      allocate (state(state_size(problem)), source=0.0_dp)
+      state(:of_velocity) = motion%states(:of_velocity, 1)
       call keep_by_contacts(problem, kept_by_contacts(from, motion%states(:, 1)), state)
    end function handed_state
 

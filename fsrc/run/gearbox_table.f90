@@ -189,7 +189,7 @@ contains
          together%power = sum(rows%numbers(place_power))
          together%force_uncorrelated = sqrt(sum(rows%numbers(place_force)**2))
          call sum_in_phase(rows%film_force, names, together%force_in_phase, in_phase)
-         together%words = 'uncorrelated: root of the sum of the squares, of forces that know nothing of each other; '// &
+         together%words = 'uncorrelated: root of the sum of the squares, as of independent forces; '// &
                           'in phase: rms of the sum of the forces, as all pairs follow one shaft, '//in_phase//'; '// &
                           'of the powers the sum'
       end if
@@ -207,9 +207,9 @@ contains
       integer :: i, width
 
       width = max(12, maxval(len_trim(rows%name)) + 2)
-      call log%line('  '//cell('gear', width)//cell('verdict', 24)//cell('class', 28)//cell('least film', 12)// &
+      call log%line('  '//cell('gear', width)//cell('verdict', 28)//cell('class', 28)//cell('least film', 12)// &
                     cell('peak', 12)//cell('rms', 12)//cell('film force', 12)//'power')
-      call log%line('  '//cell('', width + 52)//cell('[um]', 12)//cell('[m/s2]', 12)//cell('[m/s2]', 12)// &
+      call log%line('  '//cell('', width + 56)//cell('[um]', 12)//cell('[m/s2]', 12)//cell('[m/s2]', 12)// &
                     cell('rms [N]', 12)//'[W]')
       order = by_force(rows)
       do i = 1, size(rows)
@@ -223,15 +223,15 @@ contains
             ! What is unknown is compared with nothing.
             if (.not. ieee_is_nan(numbers(2))) class = class//trim(merge(', verified', '          ', numbers(2) > 0.0_dp))
             if (.not. ieee_is_nan(peak)) peak = max(abs(numbers(place_minimum)), abs(peak))
-            call log%line('  '//cell(trim(row%name), width)//cell(verdict, 24)//cell(class, 28)// &
+            call log%line('  '//cell(trim(row%name), width)//cell(verdict, 28)//cell(class, 28)// &
                           cell(number_cell(1.0e6_dp*numbers(4)), 12)//cell(number_cell(peak), 12)// &
                           cell(number_cell(numbers(place_rms)), 12)//cell(number_cell(numbers(place_force)), 12)// &
                           number_cell(numbers(place_power)))
          end associate
       end do
-      call log%line('  '//cell('together, uncorrelated', width + 88)//cell(number_cell(sums%force_uncorrelated), 12)// &
+      call log%line('  '//cell('together, uncorrelated', width + 92)//cell(number_cell(sums%force_uncorrelated), 12)// &
                     number_cell(sums%power))
-      call log%line('  '//cell('together, in phase', width + 88)//number_cell(sums%force_in_phase))
+      call log%line('  '//cell('together, in phase', width + 92)//number_cell(sums%force_in_phase))
       call log%line('  '//sums%words)
       do i = 1, size(rows)
          associate (row => rows(order(i)))

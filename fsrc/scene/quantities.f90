@@ -36,7 +36,8 @@ module quantities
          quantity_impacts_per_revolution_coast, &
          quantity_impact_load_maximum_drive, quantity_impact_load_maximum_coast, quantity_impact_velocity_maximum_drive, &
          quantity_impact_velocity_maximum_coast, quantity_impact_impulse_maximum_drive, quantity_impact_impulse_maximum_coast, &
-         quantity_impact_impulse_mean_drive, quantity_impact_impulse_mean_coast, quantity_double_sided, quantity_verdict, &
+         quantity_impact_impulse_mean_drive, quantity_impact_impulse_mean_coast, quantity_restitution_drive, &
+         quantity_restitution_coast, quantity_double_sided, quantity_verdict, &
          quantity_impact_periods, quantity_impacts_drive, quantity_impacts_coast, quantity_impact_times_drive, &
          quantity_impact_loads_drive, quantity_impact_velocities_drive, quantity_impact_impulses_drive, &
          quantity_impact_times_coast, quantity_impact_loads_coast, quantity_impact_velocities_coast, &
@@ -69,8 +70,8 @@ module quantities
                          contact_impact_impulse_maximum = 8, contact_impact_impulse_mean = 9, contact_impact_times = 10, &
                          contact_impact_loads = 11, contact_impact_velocities = 12, contact_impact_impulses = 13, &
                          contact_impacts_per_period_error = 14, contact_impact_impulse_mean_error = 15, &
-                         contact_impacts_per_second = 16, contact_impacts_per_revolution = 17
-   integer, parameter :: quantities_of_contacts(2, 17) = reshape([ &
+                         contact_impacts_per_second = 16, contact_impacts_per_revolution = 17, contact_restitution = 18
+   integer, parameter :: quantities_of_contacts(2, 18) = reshape([ &
       quantity_film_minimum, quantity_coast_film_minimum, &
       quantity_film_maximum, quantity_coast_film_maximum, &
       quantity_load_maximum, quantity_coast_load_maximum, &
@@ -87,7 +88,8 @@ module quantities
       quantity_impacts_per_period_drive_error, quantity_impacts_per_period_coast_error, &
       quantity_impact_impulse_mean_drive_error, quantity_impact_impulse_mean_coast_error, &
       quantity_impacts_per_second_drive, quantity_impacts_per_second_coast, &
-      quantity_impacts_per_revolution_drive, quantity_impacts_per_revolution_coast], [2, 17])
+      quantity_impacts_per_revolution_drive, quantity_impacts_per_revolution_coast, &
+      quantity_restitution_drive, quantity_restitution_coast], [2, 18])
 
    !> One quantity.
    type :: quantity_t
@@ -237,11 +239,20 @@ module quantities
          'summary sweep campaign', 'Mean impulse of the impacts on the drive flank; 0: there is none.'), &
       quantity_t(quantity_impact_impulse_mean_coast, 'impact_impulse_mean_coast', 'N s', a_number, part_window, needs_impacts, &
          'summary flanks campaign', 'Mean impulse of the impacts on the coast flank; 0: there is none.'), &
+      quantity_t(quantity_restitution_drive, 'restitution_drive', '-', a_number, part_window, needs_impacts, &
+         'summary sweep campaign', &
+         'Of the largest impact on the drive flank: velocity away where its load falls to F_max over that of approach where '// &
+         'it rose past it; unknown without one.', digits=4), &
+      quantity_t(quantity_restitution_coast, 'restitution_coast', '-', a_number, part_window, needs_impacts, &
+         'summary flanks campaign', &
+         'Of the largest impact on the coast flank: velocity away where its load falls to F_max over that of approach where '// &
+         'it rose past it; unknown without one.', digits=4), &
       quantity_t(quantity_double_sided, 'double_sided', '-', a_flag, part_window, needs_impacts, 'summary flanks campaign log', &
          'Whether there are impacts on both flanks in the window.'), &
       quantity_t(quantity_verdict, 'verdict', '-', a_code, part_window, needs_impacts, 'summary sweep campaign', &
-         'What the tooth does in its gap: separation is no impact, and impacts on one flank are not yet rattle between both.', &
-         'no separation|separation|single-sided impacts|double-sided impacts'), &
+         'What the tooth does in its gap. Impacts without separation: it floats up on its film and falls back, but never '// &
+         'leaves it.', &
+         'no separation|separation|single-sided impacts|double-sided impacts|impacts without separation'), &
       quantity_t(quantity_impact_periods, 'impact_periods', '-', a_count, part_window, needs_impacts, 'summary', &
          'Periods of the window in which impacts were counted: fewer than window_periods where the others repeat them.'), &
       quantity_t(quantity_impacts_drive, 'impacts_drive', '-', a_count, part_window, needs_impacts, 'summary', &
@@ -305,7 +316,7 @@ module quantities
       quantity_t(quantity_rattle_class, 'rattle_class', '-', a_code, part_class, needs_spectrum, 'summary sweep campaign', &
          'Class of the motion by its spectrum.', 'quiet|creep|idle|irregular|subharmonic|irregular_so_far', first_code=1), &
       quantity_t(quantity_motions, 'motions', '-', a_count, part_class, needs_starts, 'summary campaign', &
-         'Different motions that the starts of solver.starts lead to; 1 is no proof that there is no other.'), &
+         'Different motions that the starts of solver.starts settle on; 1 is no proof that there is no other.'), &
       quantity_t(quantity_starts_solved, 'starts_solved', '-', a_count, part_class, needs_starts, 'summary campaign', &
          'Starts whose motions were solved, that of the scene with them.'), &
       quantity_t(quantity_unsettled_starts, 'unsettled_starts', '-', a_count, part_class, needs_starts, 'summary campaign', &
@@ -313,10 +324,11 @@ module quantities
       quantity_t(quantity_start_periods, 'start_periods', '-', a_count, part_class, needs_starts, 'summary campaign', &
          'Periods of the force that were solved from the other starts, beside periods_solved.'), &
       quantity_t(quantity_loudest_class, 'loudest_class', '-', a_code, part_class, needs_starts, 'summary campaign', &
-         'Class of the motion with the largest acceleration_rms that a start leads to.', &
+         'Class of the motion with the largest acceleration_rms of all starts.', &
          'quiet|creep|idle|irregular|subharmonic|irregular_so_far', first_code=1), &
       quantity_t(quantity_loudest_verdict, 'loudest_verdict', '-', a_code, part_class, needs_motion_verdicts, 'summary campaign', &
-         'Its verdict, of separation and impacts.', 'no separation|separation|single-sided impacts|double-sided impacts'), &
+         'Its verdict, of separation and impacts.', &
+         'no separation|separation|single-sided impacts|double-sided impacts|impacts without separation'), &
       quantity_t(quantity_loudest_acceleration_rms, 'loudest_acceleration_rms', 'm/s2', a_number, part_class, needs_starts, &
          'summary campaign', 'Its acceleration_rms.', digits=4), &
       quantity_t(quantity_loudest_film_force_rms, 'loudest_film_force_rms', 'N', a_number, part_class, needs_starts, &
@@ -324,7 +336,7 @@ module quantities
       quantity_t(quantity_loudest_film_minimum, 'loudest_film_minimum', 'm', a_number, part_class, needs_starts, &
          'summary campaign', 'Its film_minimum.'), &
       quantity_t(quantity_quietest_class, 'quietest_class', '-', a_code, part_class, needs_starts, 'summary campaign', &
-         'Class of the motion with the smallest acceleration_rms that a start leads to.', &
+         'Class of the motion with the smallest acceleration_rms of all starts.', &
          'quiet|creep|idle|irregular|subharmonic|irregular_so_far', first_code=1), &
       quantity_t(quantity_quietest_acceleration_rms, 'quietest_acceleration_rms', 'm/s2', a_number, part_class, needs_starts, &
          'summary campaign', 'Its acceleration_rms.', digits=4), &
@@ -385,7 +397,7 @@ module quantities
          'What the Floquet multipliers say of the periodic motion.', &
          'stable|stable, period doubling near|stable, fold near|stable, torus near|unstable', first_code=1), &
       quantity_t(quantity_floquet_multipliers, 'floquet_multipliers', '-', a_list, part_orbit, needs_multipliers, 'summary', &
-         'What a periodic motion leaves of a disturbance: real and imaginary part of each, the larger first.'), &
+         'Factors by which a period changes a small disturbance: real and imaginary part of each, the larger first.'), &
       quantity_t(quantity_floquet_modulus, 'floquet_modulus', '-', a_number, part_orbit, needs_multipliers, 'sweep', &
          'Modulus of the largest Floquet multiplier.'), &
       quantity_t(quantity_pressure_maximum, 'pressure_maximum', 'Pa', a_number, part_regime, needs_regime, 'summary campaign', &
@@ -417,7 +429,7 @@ module quantities
          'Whether loads, oil and pressures of an elastohydrodynamic film stay within those that its closure was fitted to.', &
          'within|outside'), &
       quantity_t(quantity_film_model, 'film_model', '-', a_code, part_regime, needs_nothing, 'summary campaign', &
-         'Which model of the elastohydrodynamic film tells of the motion; recorded of every row of film.model = automatic.', &
+         'Model of the elastohydrodynamic film by which the motion is solved; recorded of every row of film.model = automatic.', &
          'closure|resolved|closure, as nodes stopped', first_code=1), &
       quantity_t(quantity_periods_solved, 'periods_solved', '-', a_count, part_cost, needs_nothing, 'summary sweep campaign', &
          'Periods of the force that were solved.'), &

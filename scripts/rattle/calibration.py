@@ -22,11 +22,11 @@ from rattle.solve import campaign
 SPEED, TEMPERATURE = "speed_rpm", "temperature_celsius"
 RATTLES = "rattles"
 YES, NO = ("1", "yes", "true", "y"), ("0", "no", "false", "n")
-# Least verdict of a pair that rattles, by what a listener is taken to hear.
+# What stands in the verdict of a pair that rattles, by what a listener is taken to hear.
 CRITERIA = {
-    "separation": "separation",
-    "impacts": "single-sided impacts",
-    "double_sided": "double-sided impacts",
+    "separation": ("separation", "impacts"),
+    "impacts": ("impacts",),
+    "double_sided": ("double-sided impacts",),
 }
 CONFIDENCE = 0.95
 SCAN, BISECTIONS = 25, 14
@@ -83,7 +83,7 @@ def read_measurements(path: Path) -> Measurements:
         )
     (name,) = others
     if name != RATTLES and (name not in QUANTITIES or QUANTITIES[name].kind not in ("number", "count")):
-        raise CommandError(f"{path}: '{name}' is neither '{RATTLES}' nor a number that the program tells.")
+        raise CommandError(f"{path}: '{name}' is neither '{RATTLES}' nor a number that the program reports.")
     columns: dict[str, list[float]] = {column: [] for column in head}
     for number, row in lines[1:]:
         if len(row) != len(head):
@@ -124,7 +124,11 @@ class Model:
     ) -> None:
         self.input, self.measurements, self.keys, self.gear = input, measurements, tuple(keys), gear
         self.column = "verdict" if measurements.name == RATTLES else measurements.name
-        self.least_verdict = {word: code for code, word in CODES["verdict"].items()}[CRITERIA[criterion]]
+        self.rattling = [
+            code
+            for code, word in CODES["verdict"].items()
+            if word != "no separation" and any(part in word for part in CRITERIA[criterion])
+        ]
         self.notes: set[str] = set()
 
     def everywhere(self, values: np.ndarray) -> np.ndarray:
@@ -191,7 +195,7 @@ def fit_numbers(model: Model, ranges: Sequence[tuple[float, float]]) -> Fit:
     elif freedom <= 0:
         notes.add("There are as many keys as measurements: the fit meets them, and no interval is known.")
     else:
-        notes.add("The measurements do not tell the keys apart: no interval is known.")
+        notes.add("The measurements cannot distinguish the keys: no interval is known.")
     fitted = [
         Fitted(key, math.exp(log), None if math.isnan(s) else (math.exp(log - s), math.exp(log + s)))
         for key, log, s in zip(model.keys, logs, spreads, strict=True)
@@ -228,7 +232,7 @@ def fit_thresholds(model: Model, span: tuple[float, float]) -> Fit:
     side of it the true value lies.
     """
     logs = np.linspace(*np.log(span), SCAN)
-    states = model.everywhere(np.exp(logs)[:, None]) >= model.least_verdict
+    states = np.isin(model.everywhere(np.exp(logs)[:, None]), model.rattling)
     notes = set()
     changes = np.sum(states[1:] != states[:-1], axis=0)
     if any(changes > 1):
@@ -242,7 +246,7 @@ def fit_thresholds(model: Model, span: tuple[float, float]) -> Fit:
     at_low = states[first, points]
     for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
-        same = (model.at_points(np.exp(middle)) >= model.least_verdict) == at_low
+        same = np.isin(model.at_points(np.exp(middle)), model.rattling) == at_low
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     limits = 0.5 * (low + high)
     # A motion that is the same over the whole range has its limit beyond one end, wherever that is.
@@ -276,7 +280,7 @@ def fit_thresholds(model: Model, span: tuple[float, float]) -> Fit:
     else:
         notes.add("No value agrees with all points: the one with the least disagreement is reported.")
         best, interval = _by_likelihood(limits[useful], (heard == at_low)[useful], logs)
-    computed = (model.everywhere(np.array([[math.exp(best)]]))[0] >= model.least_verdict).astype(float)
+    computed = np.isin(model.everywhere(np.array([[math.exp(best)]]))[0], model.rattling).astype(float)
     return Fit(
         (Fitted(key, math.exp(best), interval, is_bound=agree),), computed, tuple(sorted(notes | model.notes))
     )

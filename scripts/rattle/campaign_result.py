@@ -12,6 +12,7 @@ import numpy as np
 
 from rattle.campaign_plan import GEAR, GRID, LINEAR, Plan, PlannedAxis, read_plan
 from rattle.codes import CODES, SUCCESSES, WORD_ENDING, attributes
+from rattle.optional import needed
 from rattle.result_file import CheckedRows, ResultFile, check_length, map_rows
 from rattle.result_header import CAMPAIGN, ResultError, ResultHeader, read_header
 
@@ -169,8 +170,7 @@ class Campaign(ResultFile):
 
     def to_dataframe(self) -> pandas.DataFrame:
         """The scenes that are done as a pandas DataFrame; codes also as words, in columns NAME_word."""
-        import pandas
-
+        pandas = needed("pandas")
         rows = np.asarray(self.rows)
         done = self.done[: rows.shape[0]]
         table = pandas.DataFrame(rows if done.all() else rows[done], columns=list(self.names))
@@ -195,8 +195,7 @@ class Campaign(ResultFile):
 
         Codes carry flag_values and flag_meanings.
         """
-        import xarray
-
+        xarray = needed("xarray")
         on_grid = self.kind == GRID
         dimensions: tuple[str, ...] = self.varied if on_grid else ("scene",)
         coordinates: dict[str, Any] = {}
@@ -237,7 +236,7 @@ class Campaign(ResultFile):
         if expected is not None:
             values = _completed(values, expected, f"{self.path} contradicts its input: {key} has values")
         elif not self.done.all():
-            raise ResultError(f"{self.path} does not tell all values of {key}, and not all scenes are done.")
+            raise ResultError(f"{self.path} does not have all values of {key}, and not all scenes are done.")
         return Axis(key, self.units[key], scale, values)
 
 

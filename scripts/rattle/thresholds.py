@@ -16,7 +16,7 @@ from rattle.result import Result
 
 # A criterion of its own: whether the verdict is one with impacts.
 IMPACTS = "impacts"
-LEAST_WITH_IMPACTS = min(code for code, word in CODES["verdict"].items() if "impacts" in word)
+WITH_IMPACTS = tuple(code for code, word in CODES["verdict"].items() if "impacts" in word)
 
 
 @dataclass(frozen=True)
@@ -86,13 +86,40 @@ class Thresholds:
             words = spoken(word(self.quantity, value))
             wanted = str(self.result.value("threshold", "criterion")).strip()
             if wanted == IMPACTS:
-                return "impacts" if value >= LEAST_WITH_IMPACTS else "no impacts"
+                return "impacts" if value in WITH_IMPACTS else "no impacts"
             if wanted in CLASSES.values() and words != spoken(wanted):
                 return "another class"
             return words if self.quantity == "rattle_class" else f"{short_name(self.quantity)} {words}"
         level = float(self.result.number("threshold", "level"))
         place = "at least" if value >= level else "below"
         return f"{place} {level:g}{spaced_unit(self.result.units[f'{self.quantity}_below'])}"
+
+    def rattles(self, side: str) -> np.ndarray:
+        """Whether the motion on a side, '_below' or '_above', is the one that thresholds are to keep off."""
+        values = self.column(f"{self.quantity}{side}")
+        wanted = str(self.result.value("threshold", "criterion")).strip()
+        with np.errstate(invalid="ignore"):
+            if words_of(self.quantity) is None:
+                return values >= float(self.result.number("threshold", "level"))
+            if self.quantity == "verdict":
+                return np.isin(values, WITH_IMPACTS)
+            if self.quantity != "rattle_class":
+                return values >= 1.0
+            codes = {word: code for code, word in CLASSES.items()}
+            return values == codes[wanted] if wanted in codes else values > codes["quiet"]
+
+    @property
+    def rattling_words(self) -> str:
+        """What the side is that `rattles` finds."""
+        wanted = str(self.result.value("threshold", "criterion")).strip()
+        if words_of(self.quantity) is None:
+            level = float(self.result.number("threshold", "level"))
+            return f"at least {level:g}{spaced_unit(self.result.units[f'{self.quantity}_below'])}"
+        if self.quantity == "verdict":
+            return "impacts"
+        if self.quantity != "rattle_class":
+            return short_name(self.quantity)
+        return spoken(wanted) if wanted in CLASSES.values() else "not quiet"
 
     @property
     def has_ends(self) -> bool:

@@ -4,10 +4,13 @@ module test_impacts
    use checks, only: check_list_t
    use constants, only: two_pi
    use force, only: cosine_force, force_t, largest_size
+   use impacts, only: impact_count_t, impact_watch_t, impacts_of_watch, load_point_t, point_fall, point_low, point_passing, &
+      take_point
    use kinds, only: dp
    use problem, only: of_drive_compression, of_velocity, problem_t
    use window_extremes, only: window_extremes_t
-   use window_impacts, only: agreement_of, impact_agreement_t, impacts_of_samples, window_impacts_t
+   use window_impacts, only: agreement_of, impact_agreement_t, impacts_of_samples, impacts_without_separation, &
+      single_sided_impacts, verdict_of, window_impacts_t
    implicit none(type, external)
    private
 
@@ -33,10 +36,12 @@ contains
       call compare([4.0_dp, 0.0_dp, 3.0_dp], [4.0_dp, 3.0_dp], [1.5_dp*2.5_dp, 4.0_dp/3.0_dp*2.0_dp], 'two impacts')
       ! The dip to 0.95 N is above half of 1.7 N: the interval is the stretch about 1.8 N.
       call compare([1.8_dp, 0.95_dp, 1.7_dp], [1.8_dp], [(0.8_dp/1.8_dp + 0.8_dp/0.85_dp)*1.4_dp], 'a dip below the force')
+      call test_restitution(checks)
       call test_held(checks)
       call test_unloaded(checks)
       call test_largest_force(checks)
       call test_agreement(checks)
+      call test_never_left(checks)
 
    contains
 
@@ -88,6 +93,58 @@ contains
       states(:, of_velocity) = 0.0_dp
       states(:, of_drive_compression) = loads
    end function states_of
+
+   !> Velocities of approach and away where the load passes 1 N, about the largest of all impacts, wherever the window begins.
+   subroutine test_restitution(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(impact_watch_t) :: watch
+      type(impact_count_t) :: impacts
+
+      ! Half way between two samples each.
+      call compare([2.0_dp], [0.0_dp], 1.5_dp, 1.0_dp, 'one impact')
+      call compare([2.0_dp, 0.0_dp, 4.0_dp], [0.0_dp, -3.0_dp, 0.0_dp], 2.25_dp, 1.5_dp, 'the larger one of two')
+      call compare([4.0_dp, 0.0_dp, 2.0_dp], [0.0_dp, 1.0_dp, 0.0_dp], 2.25_dp, 0.75_dp, 'the larger one, first')
+      ! Two impacts in a stretch: it begins before the first one and ends after the second one.
+      call compare([4.0_dp, 1.4_dp, 3.0_dp], [0.0_dp, 0.0_dp, 0.5_dp], 2.25_dp, 1.5_dp, 'two impacts in a stretch')
+      call compare([1.4_dp], [0.0_dp], 0.0_dp, 0.0_dp, 'no impact')
+      ! A window that begins within an impact does not know its approach.
+      watch%level = 1.0_dp
+      watch%limit = 1.5_dp
+      call take_point(load_point_t(time=0.0_dp, load=3.0_dp, velocity=1.0_dp, kind=point_passing), watch)
+      call take_point(load_point_t(time=0.1_dp, load=1.0_dp, velocity=-1.0_dp, kind=point_fall), watch)
+      call take_point(load_point_t(time=0.2_dp, load=0.0_dp, velocity=-1.0_dp, kind=point_low), watch)
+      impacts = impacts_of_watch(watch, 1.0_dp)
+      call checks%check(impacts%count == 1 .and. .not. impacts%approach > 0.0_dp, 'restitution: no approach in the window')
+
+   contains
+
+      !> Velocities of some loads with nothing about them, which is approached at 3 m/s and left at 2 m/s.
+      subroutine compare(loads, velocities, approach, departure, name)
+         real(dp), intent(in) :: loads(:)
+         !> Of the film [m/s]
+         real(dp), intent(in) :: velocities(:)
+         real(dp), intent(in) :: approach
+         real(dp), intent(in) :: departure
+         character(*), intent(in) :: name
+         type(window_impacts_t) :: found
+         real(dp) :: all_loads(samples), all_velocities(samples), states(samples, 3)
+         integer :: shift
+
+         all_loads = 0.0_dp
+         all_loads(3:2 + size(loads)) = loads
+         all_velocities = 2.0_dp
+         all_velocities(:2) = -3.0_dp
+         all_velocities(3:2 + size(loads)) = velocities
+         do shift = 0, samples - 1
+            states = states_of(cshift(all_loads, shift))
+            states(:, of_velocity) = cshift(all_velocities, shift)
+            found = impacts_of_samples(pressed(0.0_dp), 1.5_dp, samples, states)
+            call checks%check_close(found%contacts(1)%approach, approach, 1.0e-14_dp, 'restitution, '//name//': approach')
+            call checks%check_close(found%contacts(1)%departure, departure, 1.0e-14_dp, 'restitution, '//name//': away')
+         end do
+      end subroutine compare
+
+   end subroutine test_restitution
 
    !> A load that stays above the largest force has no impact, in one period and in two.
    subroutine test_held(checks)
@@ -149,6 +206,26 @@ contains
       call checks%check_close(largest_size(cosine_force(-3.0_dp, 2.0_dp), 0.5_dp), 4.5_dp, 1.0e-15_dp, 'largest force: one order')
    end subroutine test_largest_force
 
+   !> Impacts of a tooth that leaves its flank, and of one that never does, whose verdict a part of a motion does not settle.
+   subroutine test_never_left(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(window_impacts_t) :: impacts
+      type(window_extremes_t) :: extremes
+      type(impact_agreement_t) :: part
+      type(problem_t) :: problem
+
+      problem = pressed(0.0_dp)
+      problem%backlash = huge(1.0_dp)
+      impacts%contacts(1)%count = 1
+      call checks%check(verdict_of(problem, extremes, impacts) == impacts_without_separation, 'never left')
+      part = agreement_of(problem, extremes, impacts, extremes, impacts, is_part=.true.)
+      call checks%check(.not. part%verdict, 'never left: a part of a motion')
+      impacts%unloaded_share = 0.25_dp
+      call checks%check(verdict_of(problem, extremes, impacts) == single_sided_impacts, 'left for a time')
+      part = agreement_of(problem, extremes, impacts, extremes, impacts, is_part=.true.)
+      call checks%check(part%verdict, 'left for a time: a part of a motion')
+   end subroutine test_never_left
+
    !> Windows of unlike length agree where impacts are as many a period.
    subroutine test_agreement(checks)
       type(check_list_t), intent(inout) :: checks
@@ -194,6 +271,7 @@ contains
          problem = pressed(0.0_dp)
          problem%backlash = backlash
          impacts%periods = 2
+         impacts%unloaded_share = 0.25_dp
          impacts%contacts%count = [drive, coast]
          agreement = agreement_of(problem, extremes, impacts, extremes, impacts, is_part)
          call checks%check(agreement%numbers .neqv. is_part, 'numbers of a part of a motion')

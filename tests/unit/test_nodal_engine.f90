@@ -3,7 +3,7 @@
 module test_nodal_engine
    use canonical_scenes, only: canonical_scene, counting_watcher_t, scene_g
    use checks, only: check_list_t
-   use engine, only: checkpoint_t, ending_t
+   use engine, only: checkpoint_t, ending_t, motion_state_t, start_of
    use errors, only: error_t
    use kinds, only: dp
    use nodal_step, only: nodal_choice_t
@@ -11,7 +11,7 @@ module test_nodal_engine
    use nodal_judgement, only: choice_of
    use node_extremes, only: seen_acceleration, seen_films, seen_loads, seen_pressure
    use carried_loads, only: gear_positions
-   use problem, only: problem_of, problem_t
+   use problem, only: of_drive_compression, of_film, of_velocity, problem_of, problem_t
    use prepared_scene, only: request_of, prepare
    use scene_status, only: status_complete, status_steady
    use scene_types, only: law_elastohydrodynamic, method_taylor, model_resolved, scene_t, until_periods, until_steady, &
@@ -35,6 +35,7 @@ contains
 
       call checks%start('nodal_engine')
       call test_canonical(checks)
+      call test_start(checks)
       call test_scene_g(checks)
       call test_bound(checks)
       call test_repetition(checks)
@@ -72,7 +73,7 @@ contains
       !> z(T/2), z(T) [um], z'' [m/s2], h [um]
       real(dp), parameter :: reference(4, 2) = reshape([2.0398_dp, 11.648_dp, 287.33_dp, 0.6047_dp, &
                                                         2.5396_dp, 11.739_dp, 295.11_dp, 1.8883_dp], [4, 2])
-      !> Of 64 nodes at an accuracy of 1e-4. Positions are those of a gear that is thrown off its flank, and as far off as its
+      !> Of 64 nodes. Positions are those of a gear that is thrown off its flank, and as far off as its
       !> velocity there.
       real(dp), parameter :: tolerances(4) = [2.0e-3_dp, 2.0e-3_dp, 5.0e-4_dp, 1.0e-3_dp]
       character(16), parameter :: names(4) = [character(16) :: 'z after T/2', 'z after T', 'acceleration', 'smallest film']
@@ -94,7 +95,7 @@ contains
          scene%lubricant%viscosity_law = laws(i)
          scene%film%model = model_resolved
          scene%film%nodes = 64
-         scene%solver%accuracy = 1.0e-4_dp
+         scene%solver%accuracy = 1.0e-3_dp
          scene%solver%periods = 2
          scene%spectrum%periods = 2
          call solve(scene, keeper, ending, record, watcher)
@@ -111,7 +112,7 @@ contains
          call checks%check_close(record%highest(seen_pressure)%value/381.0e6_dp, 1.0_dp, 3.0e-3_dp, &
                                  'canonical scene: largest pressure')
          scene%film%nodes = 32
-         scene%solver%accuracy = 1.0e-3_dp
+         scene%solver%accuracy = 1.0e-2_dp
          call solve(scene, keeper, ending, record, watcher)
          call checks%check_close(record%highest(seen_acceleration)%value/reference(3, i), 1.0_dp, 2.0e-3_dp, &
                                  'canonical scene, 32 nodes: acceleration')
@@ -120,7 +121,55 @@ contains
       end do
    end subroutine test_canonical
 
-   !> Twelfth period of scene G: peaks to 1e-3 and films to 3e-3 by 32 nodes, to 3e-4 and 1e-3 by 64.
+   !> Starts from a film and a velocity: from the film at rest, given as such, the motion is that from rest, on a grid of another
+   !> width; from others both are those of the first moment, and the first load is that of the closure.
+   subroutine test_start(checks)
+      type(check_list_t), intent(inout) :: checks
+      !> Film over that at rest, velocity [m/s]
+      real(dp), parameter :: starts(2, 5) = reshape([0.7_dp, 0.0_dp, 0.7_dp, -2.0e-3_dp, 0.7_dp, 5.0e-3_dp, 20.0_dp, -0.05_dp, &
+                                                     20.0_dp, 0.05_dp], [2, 5])
+      type(scene_t) :: scene
+      type(window_keeper_t) :: keeper
+      type(ending_t) :: ending
+      type(window_record_t) :: rest, record
+      type(counting_watcher_t) :: watcher
+      type(motion_state_t) :: by_closure
+      type(problem_t) :: problem
+      real(dp) :: film
+      integer :: i
+
+      scene = scene_g(viscosity_constant)
+      scene%excitation%steady_force = 60.0_dp
+      scene%film%model = model_resolved
+      scene%film%nodes = 64
+      scene%solver%accuracy = 1.0e-3_dp
+      scene%solver%kept_per_period = 64
+      scene%solver%periods = 1
+      scene%spectrum%periods = 1
+      call solve(scene, keeper, ending, rest, watcher)
+      film = rest%start%numbers(of_film)
+      scene%film%initial_film = film
+      call solve(scene, keeper, ending, record, watcher)
+      call checks%check_close(record%start%numbers(of_drive_compression)/rest%start%numbers(of_drive_compression), 1.0_dp, &
+                              1.0e-4_dp, 'start: the film at rest carries the static load')
+      call checks%check_close(record%highest(seen_acceleration)%value/rest%highest(seen_acceleration)%value, 1.0_dp, 1.0e-4_dp, &
+                              'start: from the film at rest as from rest')
+      do i = 1, size(starts, 2)
+         scene%film%initial_film = starts(1, i)*film
+         scene%film%initial_velocity = starts(2, i)
+         call solve(scene, keeper, ending, record, watcher)
+         call checks%check(ending%status == status_complete, 'start: solved')
+         call checks%check_close(record%start%numbers(of_film)/(starts(1, i)*film), 1.0_dp, 1.0e-10_dp, 'start: its film')
+         call checks%check_close(record%start%numbers(of_velocity), starts(2, i), 1.0e-14_dp, 'start: its velocity')
+         problem = problem_of(scene)
+         problem%contact%film%in_nodes = .false.
+         by_closure = start_of(problem)
+         call checks%check_close(record%start%numbers(of_drive_compression)/by_closure%numbers(of_drive_compression), 1.0_dp, &
+                                 0.05_dp, 'start: its load is that of the closure')
+      end do
+   end subroutine test_start
+
+   !> Twelfth period of scene G: peaks to 2e-3 and films to 3e-3 by 32 nodes, at an accuracy of 1e-3 by 64 to it and three times it.
    subroutine test_scene_g(checks)
       type(check_list_t), intent(inout) :: checks
       !> z'' max, min and rms [m/s2], films [m], loads [N]
@@ -130,14 +179,14 @@ contains
          514.03_dp, -255.15_dp, 37.717_dp, 0.2385e-6_dp, 0.2926e-6_dp, 330.41_dp, 163.30_dp], [7, 3])
       !> Last digits of the references: errors of peaks and films are told to them
       real(dp), parameter :: last_digits(7) = [1.2e-4_dp, 2.4e-4_dp, 1.6e-4_dp, 7.6e-4_dp, 4.6e-4_dp, 1.5e-4_dp, 2.5e-4_dp]
-      real(dp), parameter :: errors(7, 2) = reshape([1.0e-3_dp, 1.0e-3_dp, 1.5e-3_dp, 3.0e-3_dp, 3.0e-3_dp, 1.0e-3_dp, 1.0e-3_dp, &
-                                                     3.0e-4_dp, 3.0e-4_dp, 5.0e-4_dp, 1.0e-3_dp, 1.0e-3_dp, 3.0e-4_dp, 3.0e-4_dp], &
+      real(dp), parameter :: errors(7, 2) = reshape([2.0e-3_dp, 2.0e-3_dp, 2.0e-3_dp, 3.0e-3_dp, 3.0e-3_dp, 2.0e-3_dp, 2.0e-3_dp, &
+                                                     1.0e-3_dp, 1.0e-3_dp, 1.0e-3_dp, 3.0e-3_dp, 3.0e-3_dp, 1.0e-3_dp, 1.0e-3_dp], &
                                                     [7, 2])
       character(16), parameter :: names(7) = [character(16) :: 'acceleration max', 'acceleration min', 'rms', 'drive film', &
                                               'coast film', 'drive load', 'coast load']
       integer, parameter :: nodes(2) = [32, 64]
-      real(dp), parameter :: accuracies(2) = [1.0e-3_dp, 3.0e-4_dp]
-      !> Largest pressure in oil of constant viscosity [Pa], 1e-3 by 32 nodes
+      real(dp), parameter :: accuracies(2) = [1.0e-2_dp, 1.0e-3_dp]
+      !> Largest pressure in oil of constant viscosity [Pa], 3e-3 by 32 nodes
       real(dp), parameter :: pressure = 176.7e6_dp
       type(scene_t) :: scene
       type(window_keeper_t) :: keeper
@@ -168,7 +217,7 @@ contains
                                        trim(law_names(law))//', '//integer_text(nodes(i))//' nodes: '//trim(names(j)))
             end do
             if (law == viscosity_constant) &
-               call checks%check_close(record%highest(seen_pressure)%value/pressure, 1.0_dp, 2.0e-3_dp, 'scene G: largest pressure')
+               call checks%check_close(record%highest(seen_pressure)%value/pressure, 1.0_dp, 3.0e-3_dp, 'scene G: largest pressure')
          end do
       end do
    end subroutine test_scene_g
@@ -185,7 +234,7 @@ contains
       scene = scene_g(viscosity_roelands)
       scene%film%model = model_resolved
       scene%film%nodes = 64
-      scene%solver%accuracy = 1.0e-3_dp
+      scene%solver%accuracy = 1.0e-2_dp
       scene%solver%kept_per_period = 64
       scene%solver%periods = 2
       scene%spectrum%periods = 1
@@ -209,7 +258,8 @@ contains
 
       scene = scene_g(viscosity_constant)
       scene%film%model = model_resolved
-      scene%solver%accuracy = 1.0e-3_dp
+      scene%film%nodes = 32
+      scene%solver%accuracy = 1.0e-2_dp
       scene%solver%method = method_taylor
       scene%solver%kept_per_period = 64
       scene%solver%periods = 60

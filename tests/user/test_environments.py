@@ -97,9 +97,12 @@ COMMANDS = {
         "o.parquet",
     ),
     "scenes again": ("campaign.py", "rerun", "map.rattle", "--worst", "2", "--output", "o"),
+    "a page on variants": ("compare.py", "idle.rattle", "idle.rattle", "--output", "o"),
+    "a sound": ("listen.py", "idle.rattle", "--output", "o.wav", "--seconds", "0.2"),
     "a job script": ("campaign.py", "slurm", "pair.nml", "--program", "rattle", "--script", "o"),
     "a design": ("sensitivity.py", "design", "pair.nml", "--blocks", "2"),
     "indices": ("sensitivity.py", "pair_design.rattle", "--quantities", "film_force_rms", "--output", "o"),
+    "countermeasures": ("countermeasures.py", "single.nml", "--keys", "gear.face_width", "--output", "o"),
     "a fit": ("calibrate.py", "single.nml", "measured.csv", "--range", "0.5,2", "--output", "o.csv"),
 }
 QUICK = ("plot a motion", "compare", "a job script")

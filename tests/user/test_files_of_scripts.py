@@ -160,7 +160,7 @@ def test_a_file_that_comes_while_another_is_written_is_kept(tmp_path):
         own.write_text("ours")
         path.write_text("theirs")
 
-    with pytest.raises(CommandError, match="somebody else"):
+    with pytest.raises(CommandError, match="another program"):
         outputs.write([(path, write)], overwrite=False)
     assert contents(tmp_path) == {"it": b"theirs"}
     assert outputs.write([(path, write)], overwrite=True) == [path]

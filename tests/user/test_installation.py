@@ -24,7 +24,9 @@ SCRIPTS = (
     "campaign",
     "classify",
     "compare",
+    "countermeasures",
     "export",
+    "listen",
     "plot",
     "recording",
     "report",
@@ -129,9 +131,7 @@ def test_the_man_page_has_every_option_and_key(installed, rattle, repository, tm
         part = plain.partition(f"\n.SS &{group}\n")[2].partition("\n.SS ")[0]
         assert rf"\fB{name}\fR" in part, (group, name)
         assert key.meaning.replace("`", "").replace("\\", r"\e") in part
-    assert (installed / "share/doc/rattle/keys.md").read_text() == (
-        repository / "input/README.md"
-    ).read_text()
+    assert (installed / "share/doc/rattle/keys.md").read_text() == (repository / "input/KEYS.md").read_text()
     assert "share/doc/rattle/keys.md" in plain
     if shutil.which("groff"):
         assert (

@@ -272,15 +272,28 @@ def sentences_on_motion(told: Told, given: Mapping[str, Any]) -> tuple[list[str]
     choose(found, silent, told["stiffness_matters"], "no fair assumption", "a fair assumption")
     choose(found, silent, told["law_contradicted"], "is not the one of that regime", "Never.")
     impacts = {
-        "no separation": "no separation, and no impact",
-        "separation": "leaves its drive flank, without an impact",
-        "single-sided impacts": "hits one flank (single-sided impacts)",
-        "double-sided impacts": "hits both flanks of its gap (double-sided impacts)",
+        "no separation": "The tooth stays on its drive flank",
+        "separation": "The tooth leaves its drive flank, without an impact",
+        "single-sided impacts": "The tooth hits one flank",
+        "double-sided impacts": "The tooth hits both flanks of its gap",
+        "impacts without separation": "The tooth floats and falls back on its film, never leaving it",
     }
     for name, words in impacts.items():
-        choose(found, silent, told.get("verdict") == name, words, "Never.")
         if told.get("verdict") != name:
             silent.append(words)
+    counts = [(told.get(f"impacts_per_period_{flank}", 0.0), flank) for flank in ("drive", "coast")]
+    hits = [f"{count:.3g}{{}} on the {flank} flank" for count, flank in counts if count > 0.0]
+    if hits:
+        first = next(count for count, _ in counts if count > 0.0)
+        hits[0] = hits[0].format(" impact a period" if first == 1.0 else " impacts a period")
+        hits = [words.format("") for words in hits]
+    first = ": ".join(filter(None, (impacts[told["verdict"]], ", ".join(hits))))
+    found.append(f"{first}; film force on the bearings {told['film_force_rms']:.3g} N rms.")
+    if told.get("inertia_ratio", 0.0) > 0.0:
+        found.append(
+            f"Inertia over drag: {told['inertia_ratio']:.2f}. "
+            "Below 1 a tooth stays on its flank, or on the film there"
+        )
     regimes = {
         "iso-viscous": "hardly thickens the oil (iso-viscous regime)",
         "piezo-viscous": "thickens the oil, and the flanks keep their shape (piezo-viscous regime)",
@@ -292,6 +305,36 @@ def sentences_on_motion(told: Told, given: Mapping[str, Any]) -> tuple[list[str]
     if len(told["harmonics"]) > 12:
         found.append(f"The summary lists {len(told['harmonics'])} of them.")
     return found, silent
+
+
+def opening(given: Mapping[str, Mapping[str, Any]], ranges: Mapping[str, tuple[float, float]]) -> str:
+    """The first line: speed, oil and teeth, or force and oil; ranges of what is varied."""
+
+    def value(group: str, name: str, unit: str) -> str | None:
+        if name in ranges:
+            return "{:.4g} to {:.4g} {}".format(*ranges[name], unit)
+        known = given.get(group, {}).get(name)
+        if known is None:
+            return None
+        return f"{', '.join(f'{one:.4g}' for one in np.atleast_1d(known))} {unit}"
+
+    if "gear" in given:
+        oil, teeth = given["oil"], given["gear"]
+        name = f"{str(teeth.get('name', '')).strip()} {teeth['teeth_1']}/{teeth['teeth_2']} teeth".strip()
+        grade = f"{oil['viscosity_40_cst']:.4g} and {oil['viscosity_100_cst']:.4g} mm\N{SUPERSCRIPT TWO}/s"
+        degrees = "\N{DEGREE SIGN}C"
+        warmth = f"oil {oil['temperature_celsius']:.4g} {degrees} ({grade} at 40 and 100 {degrees})"
+        return f"At {given['shaft']['speed_rpm']:.4g} 1/min, {warmth}, {name}."
+    parts = (
+        ("steady force", value("load", "steady_force", "N")),
+        ("amplitude", value("load", "force_amplitude", "N")),
+        ("amplitudes", value("load", "force_amplitudes", "N")),
+        ("at", value("load", "frequency", "Hz")),
+        ("oil of", value("lubricant", "viscosity", "Pa s")),
+        ("drawn in at", value("kinematics", "entrainment_speed", "m/s")),
+    )
+    line = ", ".join(f"{words} {shown}" for words, shown in parts if shown).replace(", at ", " at ")
+    return f"{line[0].upper()}{line[1:]}."
 
 
 def choose(found: list[str], silent: list[str], is_so: bool, words: str, otherwise: str) -> None:
@@ -359,8 +402,13 @@ def assert_motion(path: Path) -> None:
     plain = [name for name in told if name in codes.QUANTITIES and not isinstance(told[name], list)]
     assert [row[0] for row in page.tables[2][1:]] == plain
     sentences, silent = sentences_on_motion(told, given)
-    periods = min(4, result.whole_periods)
-    sentences.append(f"Acceleration over the last {periods} periods of the force.")
+    sentences.append(opening(given, {}))
+    assert page.paragraphs[0] == sentences[-1]
+    repeats = result.orbit_period
+    if repeats is None:
+        sentences.append(f"over the last {min(4, result.whole_periods)} periods of the force.")
+    elif repeats > 1:
+        sentences.append(f"over {repeats} periods, after which it repeats.")
     (short,) = (words for words in page.paragraphs if words.endswith("All inputs stand below."))
     sentences += asked(given, short)
     gears = [keys for group, keys in given.items() if group.partition("(")[0] == "gear"]
@@ -381,10 +429,8 @@ def assert_motion(path: Path) -> None:
     verified = {True: NUMERICAL, False: "uncertain", None: "not examined"}[told.get("verdict_verified")]
     of_class = told.get("verification", "not examined")
     of_class = NUMERICAL if of_class == "verified" else of_class
-    odd_lines = len(odd)
-    assert page.paragraphs[1 + odd_lines] == told["verdict"] + verified
-    second = f"Class by its spectrum: {word}{of_class}"
-    assert page.paragraphs[2 + odd_lines] == second
+    assert page.paragraphs[1] == told["verdict"] + verified
+    assert page.paragraphs[2] == f"Class: {word}{of_class}"
     assert page.badges == [verified, of_class]
 
 
@@ -423,17 +469,9 @@ def test_every_sentence_on_a_motion_holds_what_its_summary_says(solved, changes)
 # --- a gearbox -----------------------------------------------------------------------------------------
 
 PAIRS = (
-    *("Gear", "Class", "Verdict", "Film minimum", "Acceleration minimum", "Acceleration maximum"),
-    *("Acceleration rms", "Film force rms", "Dissipated power"),
+    *("Pair", "Verdict", "Film force, rms", "Impacts a period, drive / coast"),
+    *("Approach velocity", "Inertia ratio", "How sure"),
 )
-COLUMNS = {
-    "film_minimum": "m",
-    "acceleration_minimum": "m/s2",
-    "acceleration_maximum": "m/s2",
-    "acceleration_rms": "m/s2",
-    "film_force_rms": "N",
-    "dissipated_power": "W",
-}
 
 
 @pytest.mark.long
@@ -452,25 +490,34 @@ def test_the_page_of_a_gearbox_is_its_table(run, repository, tmp_path):
     ]
     (tmp_path / "gearbox.summary.nml").write_text(table[:first] + "\n".join(kept) + "\n" + table[second:])
     box = rattle.read_summary(tmp_path / "gearbox.summary.nml")
+    paths[1].with_suffix(".summary.nml").unlink()
     page = read_page(report(*paths))
-    assert page.headings[0] == "Rattle of the gear pairs of gearbox"
+    assert page.headings[0] == "Rattle of gearbox"
     head, *rows = next(table for table in page.tables if tuple(table[0]) == PAIRS)
-    assert [row[0] for row in rows] == [*box["gears"], "together, uncorrelated", "together, in phase"]
-    sums = [{"film_force_rms": box[f"film_force_rms_{how}"]} for how in ("uncorrelated", "in_phase")]
-    sums[0]["dissipated_power"] = box["dissipated_power"]
-    for row, told in zip(rows, (*box["gears"].values(), *sums), strict=True):
-        assert row[1] == told.get("rattle_class", "-")
-        assert row[2] == told.get("verdict", "-")
-        for cell, (name, unit) in zip(row[3:], COLUMNS.items(), strict=True):
-            if name in told:
-                assert_shows(cell, told[name], unit, 4)
-            else:
-                assert cell == "-"
-    forces = {gear: told["film_force_rms"] for gear, told in box["gears"].items() if "film_force_rms" in told}
+    whole = {
+        gear: rattle.read_summary(path.with_suffix(".summary.nml")) if gear != "2nd" else box["gears"][gear]
+        for gear, path in zip(box["gears"], paths, strict=True)
+    }
+    forces = {gear: told["film_force_rms"] for gear, told in whole.items() if "film_force_rms" in told}
     assert len(forces) == 3
-    severest = max(forces, key=lambda gear: forces[gear])
-    words = f"{severest} is the most severe: it loads its bearings with {forces[severest]:.3g} N rms."
+    assert [row[0] for row in rows] == [*sorted(forces, key=forces.get, reverse=True), "2nd"]
+    for gear, *row in rows:
+        told = whole[gear]
+        if gear == "2nd":
+            assert row[:4] == ["-", "-", "- / -", "-"] and row[5].partition(";")[0] == "-"
+            continue
+        assert row[0] == told["verdict"]
+        assert_shows(row[1], told["film_force_rms"], "N", 4)
+        counts = [told[f"impacts_per_period_{flank}"] for flank in ("drive", "coast")]
+        assert row[2] == " / ".join(f"{count:.3g}" for count in counts)
+        speeds = [told[f"impact_velocity_maximum_{flank}"] for flank in ("drive", "coast")]
+        assert_shows(row[3], max(speeds), "m/s", 3)
+        assert_shows(row[4], told["inertia_ratio"], "", 4)
+        assert row[5].partition(";")[0] == NUMERICAL
+    sums = [box[f"film_force_rms_{how}"] for how in ("uncorrelated", "in_phase")]
+    words = f"with {sums[0]:.3g} N rms if their forces are independent, {sums[1]:.3g} N in phase."
     assert any(words in paragraph for paragraph in page.paragraphs)
+    paths.pop(1)
     summaries = [rattle.read_summary(path.with_suffix(".summary.nml")) for path in paths]
     assert ["", *(summary["name"] for summary in summaries)] in page.rows
     side = next(table for table in page.tables if table[0][1:] == [summary["name"] for summary in summaries])
@@ -569,12 +616,30 @@ def test_the_page_of_a_campaign_is_its_rows(tmp_path, chosen, failures, undone):
     sentences.append("Save as map.nml")
     if classes:
         top = page.paragraphs[2 if undone else 1]
+        sentences += first_words(columns, done, failed)
         known = columns["rattle_class"][np.isfinite(columns["rattle_class"])]
         words = [CLASSES_SPOKEN[int(code)] for code in known]
-        common = max(dict.fromkeys(words), key=words.count)
-        assert top == f"{common} in {share(words.count(common), int(done.sum()))} of the scenes"
-        sentences.append(top)
+        ranked = sorted(dict.fromkeys(words), key=lambda word: -words.count(word))
+        listed = ", ".join(ranked)
+        assert top == listed[0].upper() + listed[1:]
+    else:
+        sentences += first_words(columns, done, failed)
+    ranges = {"force_amplitude": (20.0, 400.0), "entrainment_speed": (0.5, 5.0)}
+    sentences.append(opening(told.input, ranges))
+    assert page.paragraphs[0] == sentences[-1]
     assert_numbers(page, sentences)
+
+
+def first_words(columns: Mapping[str, np.ndarray], done: np.ndarray, failed: np.ndarray) -> list[str]:
+    """What stands in the box above the first figure."""
+    if done.all() and not failed.any():
+        found = [f"All {done.size} scenes are solved."]
+    else:
+        found = [f"{done.sum()} of {done.size} scenes are solved; {failed.sum()} of them failed."]
+    if "verified" in columns:
+        lacking, known = (columns["verified"] == 0.0).sum(), np.isfinite(columns["verified"]).sum()
+        found.append(f"{lacking} of {known} classes are not numerically verified.")
+    return found
 
 
 LOAD = {"mass": 3.0, "steady_force": 199.2, "frequency": 600.0}
@@ -698,6 +763,7 @@ def test_the_page_of_a_film_task_is_its_rows(run, repository, tmp_path):
         f"The range of each column of the result over its {result.row_count} rows.",
         "This text, saved as film.nml, repeats the run with: rattle film.nml",
         "Save as film.nml",
+        opening(result.input, {}),
         *asked(result.input, short),
     ]
     assert_numbers(page, sentences)

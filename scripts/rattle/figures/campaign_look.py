@@ -18,11 +18,10 @@ from rattle.campaign_plan import GRID, LINEAR, LOGARITHMIC, SAMPLE, TABLE
 from rattle.campaign_result import Axis, Campaign
 from rattle.campaign_section import short_name
 from rattle.codes import FILM_REGIMES, STATUSES, SUCCESSES, spoken, word, words_of
-from rattle.figures import style
 
 # From the palette of Okabe and Ito, ordered so that they also differ in lightness.
 CLASS_COLOURS = {1: "#DCE6EC", 2: "#56B4E9", 3: "#D55E00", 4: "#4B2E63", 5: "#E8C547", 6: "#EACCFC"}
-VERDICT_COLOURS = {0: "#DCE6EC", 1: "#56B4E9", 2: "#E8C547", 3: "#D55E00"}
+VERDICT_COLOURS = {0: "#DCE6EC", 1: "#56B4E9", 2: "#E8C547", 3: "#D55E00", 4: "#009E73"}
 OTHER_COLOURS = (
     "#DCE6EC",
     "#56B4E9",
@@ -233,8 +232,8 @@ def column_scale(campaign: Campaign, column: str) -> tuple[float, str]:
 def column_label(campaign: Campaign, column: str) -> str:
     """As in 'Acceleration maximum [m/s2]'."""
     unit = "" if words_of(column) else column_scale(campaign, column)[1]
-    relative = f"\n{style.RELATIVE}" if unit == "m/s2" and campaign.has_gear else ""
-    return with_unit(f"{short_name(column)}{relative}", unit)
+    relative = "relative " if unit == "m/s2" and campaign.has_gear else ""
+    return with_unit(f"{relative}{short_name(column)}", unit)
 
 
 def axis_label(axis: Axis) -> str:
@@ -268,7 +267,7 @@ def is_logarithmic(axis: Axis) -> bool:
 
 
 def cell_edges(axis: Axis) -> np.ndarray:
-    """Borders of the cells whose middles are the grid points."""
+    """Borders between cells, halfway from grid point to grid point; the outer ones are the end points."""
     logarithmic = is_logarithmic(axis)
     points = np.log(axis.values) if logarithmic else axis.values
     if points.size == 1:
@@ -276,7 +275,7 @@ def cell_edges(axis: Axis) -> np.ndarray:
         edges = np.array([points[0] - width / 2, points[0] + width / 2])
     else:
         middles = 0.5 * (points[1:] + points[:-1])
-        edges = np.concatenate([[2 * points[0] - middles[0]], middles, [2 * points[-1] - middles[-1]]])
+        edges = np.concatenate([points[:1], middles, points[-1:]])
     return np.exp(edges) if logarithmic else edges
 
 

@@ -17,16 +17,17 @@ from rattle import command
 from rattle.campaign_result import Campaign
 from rattle.csv_table import read_csv_table
 from rattle.figures import style
-from rattle.figures.campaign_look import cell_edges, headline
+from rattle.figures.campaign_look import cell_edges
 from rattle.figures.spectra import LEVEL_LABEL, REFERENCE
 
 DESCRIPTION = (
     "Draw the level of the acceleration at each engine order over the speed of the shaft, as orders_NAME: "
     "curves over a Campbell picture. The result is a campaign that varies shaft.speed_rpm alone and records "
-    "harmonics. --measured lays order cuts of a test bench over it and tells by how much they differ."
+    "harmonics. --measured lays order cuts of a test bench over it, with the differences of level."
 )
 SPEED = "shaft.speed_rpm"
 MOST_CURVES = 4
+SUBJECT = "Orders of the acceleration"
 # Measured cuts: a head as it may be, and the units that are needed.
 HEAD, PER_MINUTE, ACCELERATION = "speed_rpm,order_2", "1/min", "m/s2"
 ORDER_COLUMN = re.compile(r"order_(\d+(?:\.\d*)?)")
@@ -156,18 +157,20 @@ def draw(campaign: Campaign, cuts: Cuts, measured: Cuts | None) -> Figure:
     """Cuts of the strongest orders, or of those that were measured, above the Campbell picture."""
     figure = Figure(figsize=(style.WIDTH, 6.0))
     above, below = figure.subplots(2, 1)
-    for place, order in enumerate(_chosen(cuts, measured)):
+    main = None if measured else _main_order(campaign, cuts)
+    for place, order in enumerate(_chosen(campaign, cuts, measured)):
         line = style.run_line(place)
-        above.plot(cuts.speeds, _level(cuts.at(order)), label=f"order {order:g}", **line)
+        of_engine = ", main order of the engine" if order == main else ""
+        above.plot(cuts.speeds, _level(cuts.at(order)), label=f"order {order:g}{of_engine}", **line)
         if measured is not None and measured.at(order) is not None:
             look = {"linestyle": "none", "marker": "o", "markersize": 3.5, "markerfacecolor": "none"}
             label = f"order {order:g}, measured"
             above.plot(measured.speeds, _level(measured.at(order)), color=line["color"], label=label, **look)
-    relative = f"\n{style.RELATIVE}" if campaign.has_gear else ""
-    above.set_ylabel(f"{LEVEL_LABEL}{relative}")
+    above.set_ylabel(LEVEL_LABEL)
     above.set_xlim(cuts.speeds[0], cuts.speeds[-1])
     above.set_xlabel("Shaft speed [1/min]")
-    above.set_title(f"Engine orders over speed, {style.film_words(campaign)}\n{headline(campaign)}")
+    subject = style.relative_label(SUBJECT) if campaign.has_gear else SUBJECT
+    above.set_title(f"{subject}: {campaign.name}, {style.film_words(campaign)}")
     style.legend_below(figure, above, 4)
     _campbell(figure, below, campaign, cuts)
     return figure
@@ -197,11 +200,27 @@ def _campbell(figure: Figure, axes: Axes, campaign: Campaign, cuts: Cuts) -> Non
     figure.colorbar(mesh, ax=axes, label=LEVEL_LABEL, pad=0.05)
 
 
-def _chosen(cuts: Cuts, measured: Cuts | None) -> list[float]:
+def _chosen(campaign: Campaign, cuts: Cuts, measured: Cuts | None) -> list[float]:
+    """The orders that were measured, or the strongest, the main one of the engine always among them."""
     if measured is not None:
         return [order for order in measured.orders if cuts.at(order) is not None]
-    strongest = np.argsort(-np.nan_to_num(np.nanmax(cuts.amplitudes, axis=0)), kind="stable")[:MOST_CURVES]
-    return sorted(cuts.orders[place] for place in strongest)
+    strongest = np.argsort(-np.nan_to_num(np.nanmax(cuts.amplitudes, axis=0)), kind="stable")
+    main = _main_order(campaign, cuts)
+    ranked = [main] if cuts.at(main) is not None else []
+    ranked += [cuts.orders[place] for place in strongest if cuts.orders[place] not in ranked]
+    return sorted(ranked[:MOST_CURVES])
+
+
+def _main_order(campaign: Campaign, cuts: Cuts) -> float:
+    """The order that shakes the gear most at the speed of the input, as the firing order of an engine."""
+    found = [
+        re.search(rf"^! derived: load\.{name} = ([^N\n]+)", campaign.input_text, re.MULTILINE)
+        for name in ("force_orders", "force_amplitudes")
+    ]
+    if not all(found):
+        return cuts.orders[0]
+    harmonics, sizes = ([float(value) for value in one[1].split(",")] for one in found)
+    return harmonics[int(np.argmax(np.abs(sizes)))] * cuts.orders[0]
 
 
 def _level(amplitudes: np.ndarray) -> np.ndarray:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 import numpy as np
@@ -11,26 +11,23 @@ import numpy as np
 from rattle import rerun
 from rattle.campaign_plan import GEAR, GRID
 from rattle.campaign_result import Campaign
-from rattle.campaign_section import new_section
+from rattle.campaign_section import Section, new_section
 from rattle.codes import QUANTITIES, spoken, word, words_of
 from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, campaign_slice
-from rattle.report import motion, page
-from rattle.thresholds import LEAST_WITH_IMPACTS
+from rattle.report import motion, onset, page
 
 # Columns that are drawn where they are recorded, and what their picture shows.
 DRAWN = {
-    "verdict": "What the tooth does in its gap over the varied keys. Contours: film force on the bearings "
-    "[N rms]. Beyond the green line, on the side of its ticks, the film law does not hold. Hatched: not "
-    "verified.",
-    "rattle_class": "Class of the motion over the varied keys. Hatched in grey: no class, because the scene "
-    "failed or is not done; hatched in colour: not verified.",
+    "verdict": "What the tooth does in its gap over the varied keys.",
+    "rattle_class": "Class of the motion over the varied keys.",
     "film_force_rms": "Fluctuation of the force on the bearings of the shaft: how severe the rattle is.",
     "acceleration_maximum": "Largest acceleration: how hard the tooth is thrown back by the film.",
     "film_minimum": "Thinnest film: how close the flanks come.",
     "verified": "Whether the class is verified: a second solution with a tighter tolerance agrees.",
 }
 MOST_SEEN = 3
+SURE = "All {} are numerically verified."
 # The numbers that everybody should see beside the shares: columns, which end is worst, and words.
 ENDS = (
     ("film_force_rms", np.max, "Largest film force on the bearings, rms"),
@@ -44,14 +41,31 @@ EXTRA = ("rattle_class", "film_regime", "verified")
 
 
 def verdict(campaign: Campaign) -> list[str]:
-    """The most common verdict, or where it is not recorded the most common class."""
-    counts = counted(campaign, "verdict") or counted(campaign, "rattle_class")
-    done = int(campaign.done.sum())
-    most = [f"{name} in {look.share(count, done)} of the scenes" for name, count in counts.most_common(1)]
-    doubt = not campaign.done.all() or bool(campaign.failed.any())
-    doubt = doubt or ("verified" in campaign and verifications(campaign)[1] > 0)
-    words = "".join(most) or "no class"
-    return [page.verdict_box(words, None, list(sentences_on(campaign)), doubt=doubt)]
+    """Where impacts begin and where they are worst; where no verdict is recorded the classes that occur."""
+    classes = [name for name, _ in counted(campaign, "rattle_class").most_common()]
+    words = onset.headline(campaign) or look.capital(", ".join(classes)) or "No class"
+    complete = campaign.done.all() and not campaign.failed.any()
+    solved = f"All {campaign.row_count} scenes are solved." if complete else done_words(campaign)
+    sure = sure_in_short(campaign)
+    doubt = not complete or (sure != "" and not sure.startswith("All"))
+    return [page.verdict_box(words, None, [solved, sure], doubt=doubt)]
+
+
+def done_words(campaign: Campaign) -> str:
+    """How many scenes are solved, and how many failed."""
+    done, failed = int(campaign.done.sum()), int(campaign.failed.sum())
+    return f"{done} of {campaign.row_count} scenes are solved; {failed} of them failed."
+
+
+def sure_in_short(campaign: Campaign) -> str:
+    """How many verdicts, or classes where no verdict is recorded, do not hold when solved again."""
+    flags, what = verdict_flags(campaign), "verdicts"
+    if "verdict" not in campaign and "verified" in campaign:
+        flags, what = campaign["verified"][campaign.done], "classes"
+    lacking, known = int((flags == 0.0).sum()), int(np.isfinite(flags).sum())
+    if not known:
+        return ""
+    return f"{lacking} of {known} {what} are not numerically verified." if lacking else SURE.format(what)
 
 
 def meanings(campaign: Campaign) -> list[str]:
@@ -60,7 +74,7 @@ def meanings(campaign: Campaign) -> list[str]:
 
 
 def numbers(campaign: Campaign) -> list[str]:
-    """How often each verdict or class is, and the worst of what is recorded, of each of several pairs."""
+    """How often each verdict or class is, and the worst of what is recorded; of several pairs a row each."""
     if len(campaign.gears) > 1 and len(campaign.pairs) > 1:
         return numbers_of_pairs(campaign)
     done = int(campaign.done.sum())
@@ -87,23 +101,34 @@ def end_of(campaign: Campaign, name: str, end: Callable[[np.ndarray], float]) ->
 
 
 def numbers_of_pairs(campaign: Campaign) -> list[str]:
-    """Of each gear pair in how many scenes it has impacts, and the worst of what is recorded."""
-    impacts = "verdict" in campaign
-    ends = [end for end in ENDS if end[0] in campaign][: 3 - impacts]
-    heads = ["Gear", *(["Impacts in"] if impacts else []), *(words for _, _, words in ends)]
+    """Of each gear pair where impacts begin, where they are hardest, and how sure that is."""
+    pairs = dict(zip(campaign.gears, campaign.pairs, strict=True))
+    if onset.impacts(campaign.pairs[0]) is None:
+        ends = [end for end in ENDS if end[0] in campaign][:3]
+        rows = [[gear, *(end_of(alone, name, end) for name, end, _ in ends)] for gear, alone in pairs.items()]
+        return page.numbers(rows, ["Gear", *(words for _, _, words in ends)]) if ends else []
     rows = []
-    for gear, alone in zip(campaign.gears, campaign.pairs, strict=True):
-        row = [gear]
-        if impacts:
-            hit = int((alone["verdict"] >= LEAST_WITH_IMPACTS).sum())
-            row.append(look.share(hit, int(alone.done.sum())))
-        rows.append([*row, *(end_of(alone, name, end) for name, end, _ in ends)])
-    return page.numbers(rows, heads) if len(heads) > 1 else []
+    for gear, alone in pairs.items():
+        found = onset.worst(alone)
+        force = [page.value(found[0], "N", page.FEW_DIGITS), found[1]] if found else ["-", "-"]
+        flags = verdict_flags(alone)
+        sure = f"{int((flags == 1.0).sum())} of {flags.size}" if flags.size else "-"
+        rows.append([gear, onset.beginning(alone), *force, sure])
+    heads = ("Gear", "Impacts begin", "Largest film force, rms", "at", "Verdicts numerically verified")
+    return [page.table(heads, rows, kinds=("", "", "number", "", "number"), kind="dense")]
+
+
+def verdict_flags(campaign: Campaign) -> np.ndarray:
+    """Whether the verdict of each scene that is done is verified, where that is known."""
+    if "verdict_verified" not in campaign:
+        return np.zeros(0)
+    flags = campaign["verdict_verified"][campaign.done]
+    return flags[np.isfinite(flags)]
 
 
 def sentences_on(campaign: Campaign) -> Iterator[str]:
-    done, failed = int(campaign.done.sum()), int(campaign.failed.sum())
-    yield f"{done} of {campaign.row_count} scenes are solved; {failed} of them failed."
+    done = int(campaign.done.sum())
+    yield done_words(campaign)
     if "verdict" in campaign:
         shares = [
             f"{name} in {count} ({look.share(count, done)})"
@@ -117,9 +142,8 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
             "maps of verdict and class show the loudest and hatch these scenes crosswise."
         )
     if "verdict_verified" in campaign:
-        flags = campaign["verdict_verified"][campaign.done]
-        lacking, known = int((flags == 0.0).sum()), int(np.isfinite(flags).sum())
-        yield f"Solved again, tighter, {lacking} of {known} verdicts are others."
+        flags = verdict_flags(campaign)
+        yield f"Solved again, tighter, {int((flags == 0.0).sum())} of {flags.size} verdicts are others."
     counts = counted(campaign, "rattle_class")
     if counts:
         shares = [f"{name} in {count} ({look.share(count, done)})" for name, count in counts.most_common()]
@@ -136,7 +160,7 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
             f"{lacking} of {verified + lacking} scenes are not verified."
         )
     else:
-        yield "Whether the classes stand when the scenes are solved again, tighter, was not recorded."
+        yield "Whether the classes are the same when the scenes are solved again, tighter, was not recorded."
     if "law_contradicted" in campaign:
         count = int((campaign["law_contradicted"][campaign.done] == 1.0).sum())
         yield f"In {count} scenes the film law is not the one of the regime that the motion reaches."
@@ -197,11 +221,32 @@ def figures(campaign: Campaign) -> tuple[list[str], list[str]]:
     return [
         page.drawing(
             partial(campaign_map.draw_pairs, sections, [drawn[name]], campaign_map.Options()),
-            DRAWN[name],
+            caption(list(sections.values()), name),
             f"{campaign.name} pairs {drawn[name]}",
+            "main" if name == names[0] else "",
         )
         for name in names
     ], others
+
+
+def caption(sections: Sequence[Section], column: str) -> str:
+    """What a map shows, and of hatching and lines what is there."""
+    parts = [DRAWN[column]]
+    if column in ("verdict", "rattle_class"):
+        name = drawn_column(sections[0].campaign, column)
+        doubts = [doubt.words for one in sections for doubt in look.doubts(one.campaign, name)]
+        gaps = [gap.words for one in sections for gap in look.gaps(one.campaign, name)]
+        gaps += ["not done"] if not all(one.campaign.done.all() for one in sections) else []
+        for words, hatched in (("Hatched", doubts), ("Hatched in grey", gaps)):
+            if hatched:
+                parts.append(f"{words}: {'; '.join(dict.fromkeys(hatched))}.")
+    if column == "verdict":
+        if any("film_force_rms" in one.campaign for one in sections):
+            parts.append("Lines: film force on the bearings [N rms].")
+        failing = [look.where_law_fails(one.campaign) for one in sections]
+        if any(found is not None and found[0].any() for found in failing):
+            parts.append("Beyond the green line, on the side of its ticks, the film law does not hold.")
+    return " ".join(parts)
 
 
 def drawn_column(campaign: Campaign, column: str) -> str:
@@ -213,25 +258,26 @@ def figures_of_pair(campaign: Campaign) -> list[str]:
     """Maps over the first two varied keys, or slices along the only one."""
     if campaign.kind == GRID and len(campaign.varied) == 1:
         columns = [name for name in DRAWN if name in campaign and name != "verified"]
-        caption = f"Along {look.short_name(campaign.varied[0])}. Crosses: scenes that failed."
+        words = f"Along {look.short_name(campaign.varied[0])}. Crosses: scenes that failed."
         section = new_section(campaign, campaign.varied, {})
         draw = partial(campaign_slice.draw, section, columns)
-        return [page.drawing(draw, caption, f"{campaign.name} slice")]
+        return [page.drawing(draw, words, f"{campaign.name} slice")]
     if len(campaign.varied) == 1:
         return [page.paragraph("A sample of one key only has no map.", "note")]
     x, y = campaign.varied[:2]
     drawn = []
-    for column, words in DRAWN.items():
+    for column in DRAWN:
         if column not in campaign:
             continue
         options = campaign_map.Options(None if column in ("verdict", "rattle_class") else ())
         name = drawn_column(campaign, column)
         if campaign.kind == GRID:
             section = new_section(campaign, (x, y), {})
+            words = caption([section], column)
             held = f" Held: {section.words}." if section.held else ""
             draw = partial(campaign_map.draw, section, name, options)
         else:
-            held = ""
+            words, held = DRAWN[column], ""
             draw = partial(campaign_map.draw_points, campaign, x, y, name, options)
         drawn.append(page.drawing(draw, words + held, f"{campaign.name} {name}"))
     return drawn

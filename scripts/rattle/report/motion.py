@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
 
 from rattle.codes import QUANTITIES, STATUSES, SUCCESSES, spoken
-from rattle.figures import histories, spectra, style
+from rattle.figures import histories, period, spectra, style
 from rattle.keys import unit_of
 from rattle.report import page
+from rattle.report.limits import Limits
+from rattle.report.limits import words as limit_words
 from rattle.result import Result
 from rattle.result_file import ResultFile
 from rattle.summary import RESULTS, Summary, input_warnings, read_summary
 from rattle.verdict import forced
 
-SHOWN_PERIODS = 4
+SHOWN_PERIODS = 4  # of a motion without a summary
 HARMONICS_SHOWN = 12
 # Keys of a summary that are no quantities: what they are, and their unit.
 COMPUTED = {
@@ -82,6 +84,9 @@ LIMITS = {
     "too_wide_and_narrow": "The film grows beyond a tenth of the radius and falls below 1 nm, where the "
     "model ends.",
 }
+OUTSIDE_CLOSURE = (
+    "Loads, oil or pressures leave the range that the closure of the elastohydrodynamic film was fitted to."
+)
 STABILITIES = {
     "unstable": "A periodic motion was found, but it is unstable: small disturbances lead away from it."
 }
@@ -100,8 +105,8 @@ STIFFNESS = {
     (
         True,
         True,
-    ): "The teeth deflect by {share} of the film, as this scene reckons with; rigid ones would be no "
-    "fair assumption.",
+    ): "The teeth deflect by {share} of the film, which this scene takes into account; "
+    "rigid ones would be no fair assumption.",
     (
         True,
         False,
@@ -109,10 +114,11 @@ STIFFNESS = {
 }
 # What the verdict on separation and impacts says.
 VERDICTS = {
-    "no separation": "The tooth stays on its drive flank: no separation, and no impact",
+    "no separation": "The tooth stays on its drive flank",
     "separation": "The tooth leaves its drive flank, without an impact",
-    "single-sided impacts": "The tooth hits one flank (single-sided impacts)",
-    "double-sided impacts": "The tooth hits both flanks of its gap (double-sided impacts)",
+    "impacts without separation": "The tooth floats and falls back on its film, never leaving it",
+    "single-sided impacts": "The tooth hits one flank",
+    "double-sided impacts": "The tooth hits both flanks of its gap",
 }
 # The verification is of the numbers, not of the model: that stands with the word wherever it stands alone.
 VERIFIED = "numerically verified"
@@ -120,17 +126,19 @@ VERIFIED_VERDICT = {True: ("good", VERIFIED), False: ("doubt", "uncertain"), Non
 # The numbers that everybody should see, in their order, and what they are.
 NUMBERS = {
     "film_force_rms": "Film force on the bearings, rms about its mean",
-    "acceleration_rms": "Acceleration, rms",
-    "acceleration_minimum": "Acceleration, least",
-    "acceleration_maximum": "Acceleration, largest",
-    "gear_acceleration_rms": "Angular acceleration of the loose gear, rms",
     "impacts_per_period_drive": "Impacts a period on the drive flank",
     "impacts_per_period_coast": "Impacts a period on the coast flank",
+    "impact_velocity_maximum_drive": "Largest approach velocity, drive flank",
+    "impact_velocity_maximum_coast": "Largest approach velocity, coast flank",
     "impact_load_maximum_drive": "Largest impact on the drive flank",
     "impact_load_maximum_coast": "Largest impact on the coast flank",
     "inertia_ratio": "Inertia over drag (above 1 the tooth leaves its flank without oil)",
     "drag_torque": "Drag torque on the loose gear",
+    "acceleration_rms": "Acceleration, rms",
+    "acceleration_maximum": "Acceleration, largest",
+    "gear_acceleration_rms": "Angular acceleration of the loose gear, rms",
     "film_minimum": "Thinnest film",
+    "acceleration_minimum": "Acceleration, least",
     "film_maximum": "Thickest film",
     "dissipated_power": "Power that films and teeth take",
     "alpha_p_maximum": "Largest pressure times the pressure-viscosity coefficient",
@@ -152,12 +160,12 @@ def notes_on(lines: Iterable[str]) -> list[str]:
     return [page.paragraph(f"{line[:1].upper()}{line[1:]}.", "note") for line in lines]
 
 
-def verdict(result: Result, summary: Summary | None) -> list[str]:
-    """The verdict, its verification, the class with its own, and what must be known beside them."""
+def verdict(result: Result, summary: Summary | None, limits: Limits) -> list[str]:
+    """The verdict, its verification, the class with its own, and how hard it is."""
     if summary is None:
         words = f"No summary stands beside {result.path.name}: its class and errors are not known here."
         return [page.verdict_box("No verdict", None, [words], doubt=True)]
-    sentences = list(verdict_sentences(result, summary))
+    sentences = list(verdict_sentences(summary, limits))
     word = spoken(str(summary.get("rattle_class", "no class")).strip())
     badge = badge_of(summary)
     ended = str(summary["status"]).strip() in _ended_well()
@@ -166,7 +174,7 @@ def verdict(result: Result, summary: Summary | None) -> list[str]:
         return [page.verdict_box(word, badge, sentences, doubt=doubt)]
     head = str(summary["verdict"]).strip()
     own = VERIFIED_VERDICT[summary.get("verdict_verified")]
-    second = (f"Class by its spectrum: {word}", badge)
+    second = (f"Class: {word}", badge)
     return [page.verdict_box(head, own, sentences, doubt=doubt or own[0] == "doubt", second=second)]
 
 
@@ -178,43 +186,123 @@ def badge_of(summary: Summary) -> tuple[str, str]:
     return ("good", VERIFIED) if verification == "verified" else ("doubt", verification)
 
 
-def verdict_sentences(result: Result, summary: Summary) -> Iterator[str]:
-    """Plain sentences, the most important first."""
+def verdict_sentences(summary: Summary, limits: Limits) -> Iterator[str]:
+    """What the tooth does, how often it hits, and how hard."""
     if str(summary["status"]).strip() not in _ended_well():
         yield f"The run did not reach its end ({summary['status']}). {summary.get('status_text', '')}".strip()
     verdict = VERDICTS.get(str(summary.get("verdict", "")).strip())
     if not verdict and summary.get("double_sided"):
         # Of a version that knew no impacts.
         verdict = "The coast film carries more than the drive film at times: the tooth crosses its gap"
+    parts = [": ".join(filter(None, (verdict, impact_words(summary))))] if verdict else []
+    if "film_force_rms" in summary:
+        force = float(summary["film_force_rms"])
+        known = limit_words(str(summary.get("gear", "")).strip(), force, limits)
+        size = f"film force on the bearings {force:.3g} N rms"
+        parts.append(f"{size}, {known}" if known else size)
+    if parts:
+        sentence = "; ".join(parts)
+        yield f"{sentence[0].upper()}{sentence[1:]}."
+
+
+def impact_words(summary: Summary) -> str:
+    """As in '3 impacts a period on the drive flank, 2 on the coast flank'; nothing without impacts."""
+    words = []
+    for flank in ("drive", "coast"):
+        count = summary.get(f"impacts_per_period_{flank}", 0.0)
+        if count > 0.0:
+            noun = "" if words else " impact a period" if count == 1.0 else " impacts a period"
+            words.append(f"{count:.3g}{noun} on the {flank} flank")
+    return ", ".join(words)
+
+
+def sections(result: Result, summary: Summary) -> list[str]:
+    """What stands below the figures: sound, how sure, what would change it, what to doubt."""
+    sound = list(sound_sentences(result, summary))
+    sure = list(sure_sentences(summary))
+    return [
+        *page.section("How it sounds", sound),
+        *page.section("How sure", sure),
+        *page.section("What would change it", change_sentences({"": summary})),
+        *page.section("What to doubt", list(doubts(summary, is_elastic(result)))),
+        *page.section("Film and teeth", list(model_sentences(summary, is_elastic(result)))),
+    ]
+
+
+def sound_sentences(result: Result, summary: Summary) -> Iterator[str]:
     word = str(summary.get("rattle_class", "")).strip()
-    sound = CLASSES[word].format_map(_words(result, summary)) if word in CLASSES else ""
-    if verdict:
-        yield f"{verdict}; {sound}" if sound else f"{verdict}."
-    elif sound:
+    if word in CLASSES:
+        sound = CLASSES[word].format_map(_words(result, summary))
         yield sound[0].upper() + sound[1:]
+
+
+def sure_sentences(summary: Summary) -> Iterator[str]:
     if "verification" in summary:
         yield str(summary.get("verification_text", "")).strip()
-    elif word:
+    elif str(summary.get("rattle_class", "")).strip():
         yield (
             "The scene was not solved a second time, so nothing is known of how far its class can be trusted."
         )
-    if summary.get("starts_solved", 1) > 1:
+    periods, stability = summary.get("orbit_period"), str(summary.get("orbit_stability", "")).strip()
+    if periods and stability and stability not in STABILITIES:
+        every = "every period" if periods == 1 else f"every {periods} periods"
+        yield f"A periodic motion was found: it repeats {every} of the force ({stability})."
+    if summary.get("starts_solved", 1) > 1 and summary.get("motions", 1) <= 1:
+        yield f"From other starts: {str(summary['motions_text']).strip()}."
+
+
+def change_sentences(summaries: Mapping[str, Summary]) -> list[str]:
+    """How far inertia and drag of gears are from keeping teeth on their flanks."""
+    ratios = {
+        gear: float(one["inertia_ratio"])
+        for gear, one in summaries.items()
+        if float(one.get("inertia_ratio", 0.0)) > 0.0
+    }
+    if not ratios:
+        return []
+    found = ", ".join(f"{gear} {ratio:.2f}".strip() for gear, ratio in ratios.items())
+    return [
+        f"Inertia over drag: {found}. Below 1 a tooth stays on its flank, or on the film there; "
+        "more drag, less inertia of the loose gear or a calmer shaft lead there."
+    ]
+
+
+def is_elastic(result: Result) -> bool:
+    """Whether the teeth of a scene deflect."""
+    return result.input.get("contact", {}).get("stiffness", 0.0) > 0.0
+
+
+def doubts(summary: Summary, elastic: bool) -> Iterator[str]:
+    """What speaks against the verdict, the most important first."""
+    if summary.get("motions", 1) > 1:
         yield f"From other starts: {str(summary['motions_text']).strip()}."
     if summary.get("sampling_sufficient") is False:
         yield "There are too few samples a period for this motion: its harmonics are not those of the motion."
-    periods = summary.get("orbit_period")
-    if periods and "orbit_stability" in summary:
-        stability = str(summary["orbit_stability"]).strip()
-        every = "every period" if periods == 1 else f"every {periods} periods"
-        yield STABILITIES.get(
-            stability, f"A periodic motion was found: it repeats {every} of the force ({stability})."
-        )
-    yield from regime_sentences(summary)
+    if summary.get("orbit_period") and (
+        words := STABILITIES.get(str(summary.get("orbit_stability")).strip())
+    ):
+        yield words
+    if summary.get("law_contradicted"):
+        yield from regime_sentences(summary)
+    if summary.get("closure_range") == "outside":
+        yield OUTSIDE_CLOSURE
     limit = LIMITS.get(str(summary.get("model_limit", "")).strip())
     if limit:
         yield limit
+    if summary.get("stiffness_matters") and not elastic:
+        yield from stiffness_sentences(summary, elastic)
+
+
+def model_sentences(summary: Summary, elastic: bool) -> Iterator[str]:
+    """What regime the film is in, and how far teeth deflect, where nothing of it is a doubt."""
+    if not summary.get("law_contradicted"):
+        yield from regime_sentences(summary)
+    if elastic or not summary.get("stiffness_matters"):
+        yield from stiffness_sentences(summary, elastic)
+
+
+def stiffness_sentences(summary: Summary, elastic: bool) -> Iterator[str]:
     if "stiffness_matters" in summary and "deflection_share" in summary:
-        elastic = result.input.get("contact", {}).get("stiffness", 0.0) > 0.0
         share = float(summary["deflection_share"])
         words = f"{share:.3g} times the thickness" if share > 1.0 else f"{100.0 * share:.2g} %"
         yield STIFFNESS[elastic, bool(summary["stiffness_matters"])].format(share=words)
@@ -246,9 +334,8 @@ def numbers(summary: Summary) -> list[str]:
     return [*page.numbers(rows), *note] if rows else []
 
 
-def figures(result: Result) -> list[str]:
-    """Film and force, acceleration, and its spectrum."""
-    periods = min(SHOWN_PERIODS, result.whole_periods)
+def figures(result: Result, summary: Summary | None) -> list[str]:
+    """One period with its impacts, and the spectrum of the acceleration."""
     runs, labels = [result], style.run_labels([result])
     salt = result.scene_name
     over = (
@@ -256,24 +343,28 @@ def figures(result: Result) -> list[str]:
         if result.shaft_speed
         else "at multiples of the frequency of the force"
     )
-    return [
-        page.drawing(
-            lambda: histories.draw_acceleration(runs, labels, periods),
-            f"Acceleration over the last {periods} periods of the force. Each sharp peak is an impact on "
-            "the oil film.",
-            f"{salt} acceleration",
-        ),
-        page.drawing(
+    relative = ", relative to the shaft" if result.has_gear else ""
+    if summary:
+        drawn = page.drawing(
+            lambda: period.draw(result, summary, labels[0]),
+            f"Film between the flanks and acceleration{relative}, over {period.words_of(result)}. Thin film: "
+            "the flanks are close. Thick: the tooth is in flight. Triangles: impacts, pointing down on the "
+            "drive flank, up on the coast flank.",
+            f"{salt} period",
+        )
+    else:
+        periods = min(SHOWN_PERIODS, result.whole_periods)
+        drawn = page.drawing(
             lambda: histories.draw_film_and_force(runs, labels, periods),
-            "Thickness of the oil film between the flanks, over the force that presses and lifts the "
-            "tooth. Where the "
-            "film is thin the flanks are close; where it is thick the tooth is in flight.",
+            f"Film between the flanks under the applied force, over the last {periods} periods of the force.",
             f"{salt} film",
-        ),
+        )
+    return [
+        drawn,
         page.drawing(
             lambda: spectra.draw_acceleration(runs, labels, None),
-            f"Harmonics of the acceleration {over}, linear above, logarithmic below. The class is judged by "
-            "how many of them stand out.",
+            f"Harmonics of the acceleration{relative}, {over}. Those above the dashed line count for the "
+            "class; dots are what the force itself brings.",
             f"{salt} spectrum",
         ),
     ]
