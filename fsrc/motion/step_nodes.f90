@@ -134,7 +134,7 @@ contains
          if (size(nodes%states, 2) /= numbers) filled = 0
       end if
       if (room >= pieces .and. filled > 0) return
-      room = max(first_room, pieces, 2*filled)
+      room = max(first_room, pieces, room, 2*filled)
       call extend(nodes%start, room)
       call extend(nodes%length, room)
       allocate (longer(nodes_per_piece*room, numbers))

@@ -14,7 +14,7 @@ module test_window_record
    use rattle_class, only: classify, classify_steps, rattle_verdict_t
    use scene_status, only: status_complete
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, scene_t, spectrum_choice_t
-   use step_nodes, only: interpolate, node_place, node_weight, nodes_per_piece, step_nodes_t
+   use step_nodes, only: add_piece, interpolate, node_place, node_weight, nodes_per_piece, step_nodes_t
    use window_extremes, only: extremes_of_samples, window_extremes_t
    use window_record, only: energy_gap, momentum_gap, record_period, start_record, window_record_t
    implicit none(type, external)
@@ -34,6 +34,7 @@ contains
 
       call checks%start('window_record')
       call test_nodes(checks)
+      call test_room(checks)
       call test_peaks(checks)
       call test_curves(checks)
       call test_canonical(checks)
@@ -66,6 +67,29 @@ contains
       call checks%check_close(state(of_film), node_place(2)**3, 0.0_dp, 'nodes: at a node')
       call checks%check_close(state(of_velocity), node_place(2), 0.0_dp, 'nodes: velocity at a node')
    end subroutine test_nodes
+
+   !> A lane that takes a motion of other states keeps its room: no piece is written beyond it.
+   subroutine test_room(checks)
+      type(check_list_t), intent(inout) :: checks
+
+      integer, parameter :: numbers(3) = [6, 4, 6], pieces = 200
+      type(step_nodes_t) :: nodes
+      integer :: motion, piece, room
+
+      do motion = 1, size(numbers)
+         nodes%pieces = 0
+         room = 0
+         if (allocated(nodes%start)) room = size(nodes%start)
+         do piece = 1, pieces
+            call add_piece(real(piece, dp), 0.5_dp, spread(spread(real(piece, dp), 1, nodes_per_piece), 2, numbers(motion)), nodes)
+         end do
+         call checks%check(size(nodes%start) >= room .and. size(nodes%states, 2) == numbers(motion), 'room: of other states')
+         call checks%check(size(nodes%states, 1) == nodes_per_piece*size(nodes%start), 'room: of all nodes')
+         call checks%check(all(abs(nodes%start(:pieces) - [(piece, piece=1, pieces)]) <= 0.0_dp) .and. &
+                           all(abs(nodes%states(nodes_per_piece:nodes_per_piece*pieces:nodes_per_piece, 1) - &
+                                   nodes%start(:pieces)) <= 0.0_dp), 'room: pieces where they were put')
+      end do
+   end subroutine test_room
 
    !> A peak is found wherever it lies in its piece, also between the last node and the end.
    subroutine test_peaks(checks)

@@ -368,6 +368,27 @@ def test_rows_sweeps_and_single_scenes_agree(law: str, run, tmp_path: Path) -> N
         )
 
 
+def test_pairs_from_no_damping_on_are_those_alone(run, repository: Path, tmp_path: Path) -> None:
+    """Rows of both kinds stand side by side and hand their motions on; states of damped teeth are longer."""
+    box = repository / "input" / "gearbox.nml"
+    vary = {"vary": "'gear.tooth_damping_ratio'", "first": "0.0", "last": "0.1", "count": "5"}
+    record = "campaign.record='verdict','film_force_rms','acceleration_rms'"
+    given = set_all(
+        ("scene.task='campaign'", *(f"campaign.{key}={value}" for key, value in vary.items()), record)
+    )
+    ended = run(box, *given, "--output", "rows", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    rows = rattle.read_campaign(tmp_path / "rows" / "gearbox.rattle")
+    for ratio in (0.0, 0.1):
+        alone = set_all((f"gear.tooth_damping_ratio={ratio}", "solver.starts=1"))
+        assert run(box, *alone, "--output", f"alone{ratio}", cwd=tmp_path).returncode == 0
+        for gear, pair in zip(rows.gears, rows.pairs, strict=True):
+            told = summary_of(tmp_path / f"alone{ratio}" / f"gearbox.{gear}.summary.nml")
+            (place,) = np.flatnonzero(np.abs(np.array(pair["gear.tooth_damping_ratio"]) - ratio) < 1e-12)
+            for name in ("film_force_rms", "acceleration_rms"):
+                assert pair[name][place] == pytest.approx(told[name], rel=1e-6), (gear, ratio, name)
+
+
 def test_a_small_damping_is_near_none(run, tmp_path: Path) -> None:
     """The load of a damped tooth is no state of its own, so that no damping is too small to be followed."""
     (tmp_path / "pair.nml").write_text(PAIR)
