@@ -94,13 +94,7 @@ contains
             film%film = widening*film%film
             call put_rigid_film(contact, velocity, film)
          end do
-         call stiffen(contact, film)
-         film%gap(0) = film%gap(1)
-         film%pressures(:, 0) = film%pressures(:, 1)
-         film%active = film%pressures(:, 0) > 0.0_dp
-         film%fourth = shares_of_fourth_order(film%pressures(:, 0))
-         film%rate = 0.0_dp
-         film%past = velocity*contact%grid%length
+         call enter_nodes(contact, velocity, film)
          call move_gap(contact, 0.0_dp, film, found)
          if (.not. found) return
          step = -closing*film%film(0)
@@ -173,17 +167,8 @@ contains
       real(dp), intent(in) :: step
       type(nodal_flank_t), intent(inout) :: film
       logical, intent(out) :: found
-      real(dp) :: load, by_gap, change
-      integer :: iteration
 
-      do iteration = 1, most_iterations
-         call respond(contact, iteration > free_iterations, film, load, by_gap, found)
-         if (.not. found) return
-         call correct_flank(contact, 1.0_dp, merge(step, 0.0_dp, iteration == 1), film, change)
-         film%fourth = shares_of_fourth_order(film%pressures(:, 0))
-         found = change < last_change
-         if (found) exit
-      end do
+      call find_pressures(contact, film, found, step=step)
       if (.not. found) return
       film%film(0) = smallest_film(contact%grid, film%gap(0), film%pressures(:, 0))
       found = film%film(0) > 0.0_dp
@@ -274,17 +259,11 @@ contains
       film%film = 12.0_dp*0.2039_dp/target
       film%load = target
       film%gap = rigid_gap(contact, film%film(1), target)
-      call stiffen(contact, film)
-      film%gap(0) = film%gap(1)
-      film%pressures(:, 0) = film%pressures(:, 1)
-      film%active = film%pressures(:, 0) > 0.0_dp
-      film%fourth = shares_of_fourth_order(film%pressures(:, 0))
-      film%rate = 0.0_dp
-      film%past = 0.0_dp
+      call enter_nodes(contact, 0.0_dp, film)
       growth = largest_growth
       solved_load = 0.0_dp
       do
-         call rest_under(contact, target, film, found)
+         call find_pressures(contact, film, found, load=target)
          if (found) then
             if (.not. target < load) return
             solved_load = target
@@ -299,24 +278,45 @@ contains
       end do
    end subroutine rest_of_film
 
-   !> A film in nodes at rest under a load, from one that is near it.
-   pure subroutine rest_under(contact, target, film, found)
+   !> Let the film of rigid flanks at a velocity be one in nodes, which is squeezed at this velocity for long.
+   pure subroutine enter_nodes(contact, velocity, film)
       type(nodal_contact_t), intent(in) :: contact
-      !> M [-]
-      real(dp), intent(in) :: target
+      !> H' [-]
+      real(dp), intent(in) :: velocity
+      type(nodal_flank_t), intent(inout) :: film
+
+      call stiffen(contact, film)
+      film%gap(0) = film%gap(1)
+      film%pressures(:, 0) = film%pressures(:, 1)
+      film%active = film%pressures(:, 0) > 0.0_dp
+      film%fourth = shares_of_fourth_order(film%pressures(:, 0))
+      film%rate = 0.0_dp
+      film%past = velocity*contact%grid%length
+   end subroutine enter_nodes
+
+   !> Pressures of a film in nodes by Newton's method, from those near them: under a load, or with the gap moved by a step.
+   pure subroutine find_pressures(contact, film, found, step, load)
+      type(nodal_contact_t), intent(in) :: contact
       type(nodal_flank_t), intent(inout) :: film
       logical, intent(out) :: found
-      real(dp) :: load, by_gap, change
+      !> dG [-]
+      real(dp), intent(in), optional :: step
+      !> M [-]
+      real(dp), intent(in), optional :: load
+      real(dp) :: carried, by_gap, change, correction
       integer :: iteration
 
       do iteration = 1, most_iterations
-         call respond(contact, iteration > free_iterations, film, load, by_gap, found)
+         call respond(contact, iteration > free_iterations, film, carried, by_gap, found)
          if (.not. found) return
-         call correct_flank(contact, 1.0_dp, (target - load)/by_gap, film, change)
+         correction = 0.0_dp
+         if (present(load)) correction = (load - carried)/by_gap
+         if (present(step) .and. iteration == 1) correction = step
+         call correct_flank(contact, 1.0_dp, correction, film, change)
          film%fourth = shares_of_fourth_order(film%pressures(:, 0))
          found = change < last_change
          if (found) return
       end do
-   end subroutine rest_under
+   end subroutine find_pressures
 
 end module nodal_start

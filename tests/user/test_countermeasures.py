@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import csv
 import math
-import re
 import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
+from page_commands import call, shell
 from script_calls import called_here, figure_stems
 from test_calibrate import INPUT
 from test_report import report
@@ -252,14 +251,7 @@ def test_page_names_every_key_that_is_changed(repository: Path) -> None:
 def test_commands_of_the_page(rattle: Path, repository: Path, tmp_path: Path) -> None:
     """From a folder that is as the repository; they leave what the page says."""
     page = (repository / "input" / "COUNTERMEASURES.md").read_text()
-    commands = "".join(re.findall(r"^```sh\n(.*?)^```", page, re.M | re.S))
-    (tmp_path / "build").mkdir()
-    (tmp_path / "build" / "rattle").symlink_to(rattle)
-    for name in ("scripts", ".venv", "input"):
-        (tmp_path / name).symlink_to(repository / name)
-    ended = subprocess.run(
-        ["bash", "-e", "-c", commands], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    ended = call(shell(page), tmp_path, rattle, repository)
     assert ended.returncode == 0, ended.stderr
     left = {path.name for path in (tmp_path / "results").iterdir()}
     assert {"rattling_gear.countermeasures.md", "rattling_gear.together.csv"} <= left

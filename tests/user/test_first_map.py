@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import re
-import subprocess
 from pathlib import Path
 
 import pytest
+from page_commands import call, shell
 
 import rattle as package
 from rattle.keys import key_table
@@ -16,23 +15,9 @@ from rattle.keys import key_table
 @pytest.mark.long
 def test_the_way_from_a_drawing_to_a_map(rattle: Path, repository: Path, tmp_path: Path) -> None:
     """All commands in their order, from a folder that is as the repository; the map with fewer values."""
-    page = (repository / "input" / "FIRST_MAP.md").read_text()
-    commands = "".join(re.findall(r"^```sh\n(.*?)^```", page, re.M | re.S))
+    commands = shell((repository / "input" / "FIRST_MAP.md").read_text())
     assert commands.count("build/rattle") == 5 and "count = 9, 8" in commands
-    (tmp_path / "build").mkdir()
-    (tmp_path / "build" / "rattle").symlink_to(rattle)
-    for name in ("scripts", ".venv"):
-        (tmp_path / name).symlink_to(repository / name)
-    commands = commands.replace("count = 9, 8", "count = 2, 2")
-    environment = os.environ | {"OMP_NUM_THREADS": "1"}
-    ended = subprocess.run(
-        ["bash", "-e", "-c", commands],
-        cwd=tmp_path,
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    ended = call(commands.replace("count = 9, 8", "count = 2, 2"), tmp_path, rattle, repository)
     assert ended.returncode == 0, ended.stderr
     for words in ("inertia ratio Lambda", "drag torque", "largest load expected"):
         assert ended.stdout.count(words) >= 4

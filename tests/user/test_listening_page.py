@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import os
-import re
-import subprocess
 from pathlib import Path
 
 import pytest
+from page_commands import call, shell
 from scipy.io import wavfile
 
 from rattle.sound import transfer
@@ -15,22 +13,9 @@ from rattle.sound import transfer
 
 @pytest.mark.long
 def test_every_command_of_the_page_makes_its_sound(rattle: Path, repository: Path, tmp_path: Path) -> None:
-    page = (repository / "input" / "LISTENING.md").read_text()
-    commands = "".join(re.findall(r"^```sh\n(.*?)^```", page, re.M | re.S))
+    commands = shell((repository / "input" / "LISTENING.md").read_text())
     assert commands.count("listen.py") == 2
-    (tmp_path / "build").mkdir()
-    (tmp_path / "build" / "rattle").symlink_to(rattle)
-    for name in ("scripts", ".venv", "input"):
-        (tmp_path / name).symlink_to(repository / name)
-    environment = os.environ | {"OMP_NUM_THREADS": "1", "PYTHONPATH": str(repository / "scripts")}
-    ended = subprocess.run(
-        ["bash", "-e", "-c", commands],
-        cwd=tmp_path,
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    ended = call(commands, tmp_path, rattle, repository)
     assert ended.returncode == 0, ended.stderr
     for name, seconds in (("box.wav", 6.5), ("first.wav", 3.0)):
         rate, samples = wavfile.read(tmp_path / name)

@@ -2,36 +2,14 @@
 
 from __future__ import annotations
 
-import os
 import re
 import subprocess
 from pathlib import Path
 
 import pytest
+from page_commands import call, shell
 
 import rattle as package
-
-
-def shell(page: str) -> str:
-    """The commands of a page."""
-    return "".join(re.findall(r"^```sh\n(.*?)^```", page, re.M | re.S))
-
-
-def call(commands: str, folder: Path, rattle: Path, repository: Path) -> subprocess.CompletedProcess[str]:
-    """Commands in a folder that is as the repository."""
-    (folder / "build").mkdir()
-    (folder / "build" / "rattle").symlink_to(rattle)
-    for name in ("scripts", ".venv", "input"):
-        (folder / name).symlink_to(repository / name)
-    environment = os.environ | {"OMP_NUM_THREADS": "1"}
-    return subprocess.run(
-        ["bash", "-e", "-o", "pipefail", "-c", commands],
-        cwd=folder,
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
 
 
 def test_the_page_is_short(repository: Path) -> None:
