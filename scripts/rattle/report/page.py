@@ -41,6 +41,14 @@ WIDTH = 4.6  # inches of figures: their type is legible on a telephone
 MOST_NUMBERS = 15
 POWER = re.compile(r"e([+-])0*(\d+)$")
 
+# What a page is on, and of what.
+ABOUT = (
+    "A loose gear pair, shaken by the engine, hammers through its oil film. This page says {what}, and how "
+    "far that can be trusted. Computed with rattle."
+)
+OF_MOTIONS = "how the tooth pair moves under the force given here, how it rattles"
+OF_THRESHOLDS = "where the tooth pair begins to move in another way"
+
 STYLE = """
 :root { color-scheme: light;
   --ink: #1d2429; --soft: #57636b; --rule: #d5dbdf; --ground: #f5f7f8; --blue: #0072b2; }
