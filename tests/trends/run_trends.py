@@ -22,6 +22,7 @@ import rattle
 from rattle.codes import CLASSES, CODES, spoken
 from rattle.figures import style
 from rattle.figures.campaign_look import plain_log_ticks
+from rattle.thresholds import WITH_IMPACTS
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -121,7 +122,7 @@ def main() -> int:
                 left.plot(shown, 20.0 * np.log10(force), label=gear, **line)
                 with np.errstate(divide="ignore"):
                     right.plot(shown, 20.0 * np.log10(impulse), **line)
-                hit = np.array(pair["verdict"]) >= 2
+                hit = np.isin(pair["verdict"], WITH_IMPACTS)
                 words = f"{np.mean(hit):.0%} of the values"
                 rows.append(
                     f"| {name} | {gear} | {trend(shown, force)} | {trend(shown, impulse)} | {words} |"
