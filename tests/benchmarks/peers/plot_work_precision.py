@@ -28,6 +28,7 @@ GROUPS = {
 }
 TABLE_ERRORS = (1e-4, 1e-6, 1e-8)
 CURVE_ERRORS = tuple(10.0 ** (-k / 4) for k in range(8, 50))
+MARKS = "os^DvPX*<>phd"  # of the peers, in their order
 DEFAULT_BASE = "heyoka 8 lanes"
 MOST_COLUMNS = 3
 
@@ -146,7 +147,7 @@ def figure(head: dict[str, str], points: Points, path: Path) -> None:
     )
     for axis in axes.flat[len(groups) :]:
         axis.remove()
-    colours, peers = plt.get_cmap("tab10"), [name for name in points if name not in own]
+    colours, peers = plt.get_cmap("tab20"), [name for name in points if name not in own]
     for axis, (title, names) in zip(axes.flat, groups.items(), strict=False):
         count = scene_count(points, names)
         for contender, films in points.items():
@@ -158,8 +159,8 @@ def figure(head: dict[str, str], points: Points, path: Path) -> None:
                 dash = ("-", "--", "-.", ":")[own.index(contender) % 4]
                 style = {"color": "black", "linewidth": 1.6, "linestyle": dash, "marker": ""}
             else:
-                place = peers.index(contender) % 10
-                style = {"color": colours(place), "linewidth": 0.9, "marker": "os^DvPX*<>"[place]}
+                place = peers.index(contender) % len(MARKS)
+                style = {"color": colours(place), "linewidth": 0.9, "marker": MARKS[place]}
             axis.loglog(*zip(*drawn, strict=True), label=contender, markevery=4, markersize=3.5, **style)
         title = title.replace(", ", ",\n")
         axis.set_title(f"{title},\n{f'mean of {count} scenes' if count > 1 else 'one scene'}", fontsize=8)

@@ -35,7 +35,7 @@ from pathlib import Path
 import command
 import scenes
 
-PEERS = ("cvode_peer", "scipy_peer", "numbalsoda_peer", "heyoka_peer")
+PEERS = ("cvode_peer", "scipy_peer", "numbalsoda_peer", "cyrk_peer", "diffsol_peer", "heyoka_peer")
 CHANGED_PEERS = ("cvode_peer", "heyoka_peer")
 OWN_TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12)
 QUICK_TOLERANCES = (1e-4, 1e-6, 1e-8)
