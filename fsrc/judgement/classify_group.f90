@@ -9,10 +9,10 @@ module classify_group
    use errors, only: error_t
    use kinds, only: dp
    use irregular_statistics, only: is_enough, statistics_of_path
-   use lyapunov, only: follow_neighbours, parting_t, path_t
+   use lyapunov, only: draws_near, follow_neighbours, parting_t, path_t
    use many_motions, only: solve_motions
    use memory_need, only: expect_window_memory
-   use periodic_orbit, only: attracting_period, periodic_orbit_t
+   use periodic_orbit, only: attracting_period, longest_period, longest_settled, periodic_orbit_t
    use prepared_scene, only: prepared_scene_t
    use problem, only: state_size
    use rattle_class, only: class_creep, class_irregular_so_far, classify_steps, note_orbit, note_parting, &
@@ -37,7 +37,7 @@ module classify_group
    !> Samples of windows that are solved side by side: no more than these, but for a window that has more alone.
    integer, parameter :: samples_together = 2**21
 
-   public :: classify_windows, follow_irregular, integral_record, may_be_finer
+   public :: classify_windows, complete_windows, follow_irregular, integral_record, may_be_finer
 
 contains
 
@@ -131,7 +131,7 @@ contains
       finer = scenes(1)%request%samples_per_period
       classified_by = finer
       by_samples = verdicts
-      windows = integral_windows(scenes, records, periods)
+      windows = integral_windows(scenes, records, periods, with_extremes=.false.)
       do i = 1, size(scenes)
          if (windows(i)%periods == 0) cycle
          call classify_steps(windows(i), scenes(i)%resolved%problem%frequency, scenes(i)%spectrum, &
@@ -205,15 +205,14 @@ contains
       end do
    end function finer_classes
 
-   !> Look for a periodic motion at the ends of motions that are off their harmonics, and follow those that are irregular still beside
-   !> neighbours. After a signal to stop the answers are of no use.
+   !> Look for a periodic motion at the ends of motions that are off their harmonics, follow those that are irregular still beside
+   !> neighbours, and complete the windows of those that repeat. After a signal to stop the answers are of no use.
    subroutine follow_irregular(scenes, group, followed)
       type(prepared_scene_t), intent(in) :: scenes(:)
       !> The classified scenes
       type(scene_group_t), intent(inout) :: group
       !> Which of them; absent: all
       logical, intent(in), optional :: followed(:)
-      type(periodic_orbit_t) :: orbit
       type(parting_t), allocatable :: partings(:)
       type(path_t), allocatable :: passed(:)
       logical :: is_left(size(scenes))
@@ -226,14 +225,9 @@ contains
       left = pack([(i, i=1, size(scenes))], is_left)
       do i = 1, size(left)
          if (must_stop()) return
-         associate (place => left(i))
-            orbit = nearby_orbit(scenes(place)%resolved%problem, group%endings(place))
-            call note_orbit(group%verdicts(place), attracting_period(orbit))
-            if (orbit%period > 0) group%repeat_after(place) = orbit%period
-         end associate
+         call note_nearby_orbit(scenes(left(i)), longest_period, left(i), group)
       end do
       left = pack(left, group%verdicts(left)%class == class_irregular_so_far)
-      if (size(left) == 0) return
       allocate (partings(size(left)), passed(size(left)))
       do i = 1, size(left)
          passed(i)%record = integral_record(scenes(left(i))%spectrum)
@@ -241,26 +235,74 @@ contains
          passed(i)%record%loads%impact_limit = scenes(left(i))%request%impact_limit
       end do
       call unlock_texts()
-      call follow_neighbours(scenes(left)%resolved%problem, group%endings(left)%motion_state_t, is_enough, &
-                             partings, passed)
+      if (size(left) > 0) call follow_neighbours(scenes(left)%resolved%problem, group%endings(left)%motion_state_t, is_enough, &
+                                                 partings, passed)
       call lock_texts()
       do i = 1, size(left)
          call note_parting(group%verdicts(left(i)), partings(i))
-         if (partings(i)%for_good) call take_path(scenes(left(i)), passed(i), left(i), group)
+         ! What settles may repeat after more periods than are looked for before.
+         if (draws_near(partings(i))) call note_nearby_orbit(scenes(left(i)), longest_settled, left(i), group)
+         if (.not. partings(i)%for_good) cycle
+         call take_path(scenes(left(i)), passed(i), .true., left(i), group)
+         group%statistics(left(i)) = statistics_of_path(passed(i), scenes(left(i))%resolved%problem%frequency)
       end do
+      call complete_windows(scenes, group)
    end subroutine follow_irregular
 
-   !> Take where an irregular motion went, and its harmonics from there; its class stands.
-   subroutine take_path(scene, path, place, group)
+   !> Note the periodic motion at the end of a scene, if there is one.
+   subroutine note_nearby_orbit(scene, longest, place, group)
+      type(prepared_scene_t), intent(in) :: scene
+      !> Longest period that is looked for
+      integer, intent(in) :: longest
+      !> Of the scene in the group
+      integer, intent(in) :: place
+      type(scene_group_t), intent(inout) :: group
+      type(periodic_orbit_t) :: orbit
+
+      orbit = nearby_orbit(scene%resolved%problem, group%endings(place), longest)
+      call note_orbit(group%verdicts(place), attracting_period(orbit))
+      if (orbit%period > 0) group%repeat_after(place) = orbit%period
+   end subroutine note_nearby_orbit
+
+   !> Complete the windows of motions that repeat after a number of periods that does not divide them: follow these from where the
+   !> window begins over whole periods of the motion.
+   subroutine complete_windows(scenes, group)
+      type(prepared_scene_t), intent(in) :: scenes(:)
+      !> The classified scenes, with the periods after which they repeat
+      type(scene_group_t), intent(inout) :: group
+      type(path_t) :: path
+      type(window_record_t), allocatable :: records(:)
+      integer, allocatable :: open(:)
+      integer :: periods(size(scenes)), n, i
+
+      n = size(scenes)
+      periods = group%endings(:n)%samples/scenes(1)%request%samples_per_period
+      open = pack([(i, i=1, n)], has_window(group%endings(:n)) .and. group%records(:n)%periods > 0 .and. &
+                  group%repeat_after(:n) > 1 .and. modulo(periods, max(1, group%repeat_after(:n))) > 0)
+      if (size(open) == 0) return
+      associate (after => group%repeat_after(open))
+         records = integral_windows(scenes(open), group%records(open), ((periods(open) - 1)/after + 1)*after, with_extremes=.true.)
+      end associate
+      do i = 1, size(open)
+         if (records(i)%periods == 0) cycle
+         path%record = records(i)
+         call take_path(scenes(open(i)), path, .false., open(i), group)
+      end do
+   end subroutine complete_windows
+
+   !> Take where a motion went beyond its window, and its harmonics from there; its class stands.
+   subroutine take_path(scene, path, by_power, place, group)
       type(prepared_scene_t), intent(in) :: scene
       type(path_t), intent(in) :: path
+      !> Whether its harmonics are those of the mean power of its periods
+      logical, intent(in) :: by_power
       !> Of the scene in the group
       integer, intent(in) :: place
       type(scene_group_t), intent(inout) :: group
       type(rattle_verdict_t) :: verdict
 
       call classify_steps(path%record, scene%resolved%problem%frequency, scene%spectrum, scene%resolved%noise_floor, verdict, &
-                          by_power=.true.)
+                          by_power=by_power)
       associate (found => group%verdicts(place))
          ! Whether the samples of the scene follow the motion is known from its window.
          verdict%spectrum%sampling_sufficient = found%spectrum%sampling_sufficient
@@ -268,16 +310,17 @@ contains
          found%reversals_per_period = verdict%reversals_per_period
       end associate
       group%paths(place) = path
-      group%statistics(place) = statistics_of_path(path, scene%resolved%problem%frequency)
    end subroutine take_path
 
    !> Records of some windows with Fourier integrals. The windows are solved again from where they begin, side by side; a window
    !> that cannot be has no periods in its record.
-   function integral_windows(scenes, records, periods) result(windows)
+   function integral_windows(scenes, records, periods, with_extremes) result(windows)
       type(prepared_scene_t), intent(in) :: scenes(:)
-      !> What the steps of their windows gave, and how many periods these have
+      !> What the steps of their windows gave, and how many periods are solved from where they begin
       type(window_record_t), intent(in) :: records(:)
       integer, intent(in) :: periods(:)
+      !> Whether extremes and impacts are asked for as in the records
+      logical, intent(in) :: with_extremes
       type(window_record_t) :: windows(size(scenes))
       type(motion_state_t) :: starts(size(scenes))
       type(request_t) :: request
@@ -294,6 +337,9 @@ contains
          starts(i) = records(i)%start
          starts(i)%periods = request%periods - periods(i)
          windows(i) = integral_record(scenes(i)%spectrum)
+         if (.not. with_extremes) cycle
+         windows(i)%wants = records(i)%wants
+         windows(i)%loads%impact_limit = records(i)%loads%impact_limit
       end do
       allocate (states(request%periods, maxval(state_size(scenes%resolved%problem)), size(scenes)), source=0.0_dp)
       call unlock_texts()

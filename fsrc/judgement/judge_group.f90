@@ -21,7 +21,7 @@ module judge_group
       needs_verification, needs_verified_impacts
    use rattle_class, only: class_irregular_so_far, note_orbit
    use regime_check, only: check_regime
-   use scene_group, only: has_window, judged_record, scene_group_t
+   use scene_group, only: goes_beyond, has_window, judged_record, scene_group_t
    use scene_orbit, only: nearby_orbit
    use scene_status, only: is_success, status_steady
    use signals, only: must_stop
@@ -166,7 +166,7 @@ contains
       call follow_irregular(scenes, group, is_open)
    end subroutine find_irregular
 
-   !> Extremes, severity, impacts and regime of a window, or of the periods that an irregular motion was followed.
+   !> Extremes, severity, impacts and regime of a window, or of the periods that a motion was followed beyond it.
    subroutine judge_window(scene, needed, place, group, judged)
       type(prepared_scene_t), intent(in) :: scene
       logical, intent(in) :: needed(:)
@@ -187,7 +187,7 @@ contains
             judged%rattle = verdict
             associate (classified_by => group%classified_by(place))
                judged%series_coarse = classified_by /= samples_per_period .or. .not. verdict%spectrum%sampling_sufficient
-               judged%harmonics_by_integrals = classified_by == 0 .or. judged%statistics%periods > 0
+               judged%harmonics_by_integrals = classified_by == 0 .or. goes_beyond(group, place)
                judged%samples_per_period = merge(samples_per_period, classified_by, judged%harmonics_by_integrals)
             end associate
          end if
@@ -195,7 +195,7 @@ contains
             judged%extremes = extremes_of_record(record)
             judged%severity = severity_of_record(record, problem%frequency)
             judged%impacts = impacts_of_record(record, problem%frequency)
-            if (judged%statistics%periods > 0) call list_impacts_of(impacts_of_record(group%records(place), problem%frequency), &
+            if (goes_beyond(group, place)) call list_impacts_of(impacts_of_record(group%records(place), problem%frequency), &
                                                                     judged%impacts)
          else
             associate (states => group%states(:samples, :, place))
@@ -232,7 +232,7 @@ contains
       integer :: samples_per_period
 
       force_rms = judged%severity%film_force_rms
-      if (judged%statistics%periods > 0) then
+      if (goes_beyond(group, 1)) then
          severity = severity_of_record(group%records(1), scene%resolved%problem%frequency)
          force_rms = severity%film_force_rms
       end if

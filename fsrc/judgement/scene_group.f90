@@ -34,14 +34,15 @@ module scene_group
       integer, allocatable :: classified_by(:)
       !> Periods after which they repeat, by the engine or by a search at their ends; 0 where none was found
       integer, allocatable :: repeat_after(:)
-      !> Where the motions went that are irregular, and what the steps tell of it
+      !> Where motions went beyond their windows: those that are irregular, with their statistics, and those whose window is no
+      !> multiple of the periods after which they repeat
       type(path_t), allocatable :: paths(:)
       type(irregular_statistics_t), allocatable :: statistics(:)
       !> Periodic motions next to the ends, where they were looked for
       type(periodic_orbit_t), allocatable :: orbits(:)
    end type scene_group_t
 
-   public :: solve_group, take_window, has_window, judged_record
+   public :: solve_group, take_window, has_window, judged_record, goes_beyond
 
 contains
 
@@ -119,15 +120,24 @@ contains
       group%repeat_after(1) = ending%orbit
    end subroutine take_window
 
-   !> What the steps tell of a motion: of an irregular one over the periods that it was followed, else over its window.
+   !> What the steps tell of a motion: over the periods that it was followed beyond its window, else over its window.
    pure type(window_record_t) function judged_record(group, place)
       type(scene_group_t), intent(in) :: group
       !> Of the motion
       integer, intent(in) :: place
 
       judged_record = group%records(place)
-      if (group%paths(place)%record%periods > 0) judged_record = group%paths(place)%record
+      if (goes_beyond(group, place)) judged_record = group%paths(place)%record
    end function judged_record
+
+   !> Whether a motion is judged over more periods than those of its window.
+   pure logical function goes_beyond(group, place)
+      type(scene_group_t), intent(in) :: group
+      !> Of the motion
+      integer, intent(in) :: place
+
+      goes_beyond = group%paths(place)%record%periods > 0
+   end function goes_beyond
 
    !> Whether a motion has a window: it has not failed, nor come to a known one.
    elemental logical function has_window(ending)

@@ -5,7 +5,7 @@ module scene_orbit
    use kinds, only: dp
    use known_motions, only: are_near, distance_of, known_motions_t, near_states
    use many_motions, only: solve_motions
-   use periodic_orbit, only: attracting_period, find_periodic_orbit, longest_period, map_states, periodic_orbit_t
+   use periodic_orbit, only: attracting_period, find_periodic_orbit, longest_settled, map_states, periodic_orbit_t
    use problem, only: problem_t
    use scene_status, only: status_complete
    use text_output, only: lock_texts, unlock_texts
@@ -31,14 +31,16 @@ module scene_orbit
 contains
 
    !> The periodic motion at the end of a run, if there is one.
-   type(periodic_orbit_t) function nearby_orbit(problem, ending)
+   type(periodic_orbit_t) function nearby_orbit(problem, ending, longest)
       !> What moves
       type(problem_t), intent(in) :: problem
       !> Where its motion ended
       class(motion_state_t), intent(in) :: ending
+      !> Longest period that is looked for, as of find_periodic_orbit
+      integer, intent(in), optional :: longest
 
       call unlock_texts()
-      nearby_orbit = find_periodic_orbit(problem, ending%numbers, orbit_nearness)
+      nearby_orbit = find_periodic_orbit(problem, ending%numbers, orbit_nearness, longest)
       call lock_texts()
    end function nearby_orbit
 
@@ -70,7 +72,7 @@ contains
       call lock_texts()
    end function orbit_ahead
 
-   !> The stable periodic motion next to the state from which a motion comes closest to where it is after one to eight periods, or none.
+   !> The stable periodic motion next to the state from which a motion comes closest to where it is some periods later, or none.
    type(periodic_orbit_t) function orbit_of_return(problem, states) result(orbit)
       type(problem_t), intent(in) :: problem
       !> End of a period, number of the state
@@ -82,14 +84,14 @@ contains
       place = 0
       do i = 1, size(states, 1)
          scale = counts_as(problem, states(i, :))/thinnest_film(problem, states(i, :))
-         do period = 1, min(longest_period, size(states, 1) - i)
+         do period = 1, min(longest_settled, size(states, 1) - i)
             distance = maxval(abs(states(i + period, :) - states(i, :))*scale)
             if (distance >= nearest) cycle
             nearest = distance
             place = i
          end do
       end do
-      if (place > 0) orbit = find_periodic_orbit(problem, states(place, :), orbit_nearness)
+      if (place > 0) orbit = find_periodic_orbit(problem, states(place, :), orbit_nearness, longest_settled)
       if (attracting_period(orbit) == 0) orbit = periodic_orbit_t()
    end function orbit_of_return
 

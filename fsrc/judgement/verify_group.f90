@@ -9,7 +9,7 @@
 !> neighbour, without a second solution.
 module verify_group
    use carried_loads, only: films_of
-   use classify_group, only: classify_windows
+   use classify_group, only: classify_windows, complete_windows
    use doubt, only: doubt_samples, doubt_second_ending, doubt_t, is_doubted
    use engine, only: motion_state_t, start_of
    use errors, only: error_t
@@ -19,7 +19,7 @@ module verify_group
    use prepared_scene, only: prepared_scene_t, with_accuracy
    use problem, only: of_film
    use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, note_known, note_orbit, rattle_verdict_t
-   use scene_group, only: scene_group_t, solve_group
+   use scene_group, only: goes_beyond, judged_record, scene_group_t, solve_group
    use scene_orbit, only: nearby_orbit, orbit_of
    use scene_status, only: is_success, status_steady
    use scene_types, only: method_newmark, method_taylor
@@ -29,6 +29,7 @@ module verify_group
    use vibration_severity, only: severity_of_record, vibration_severity_t
    use window_extremes, only: extremes_of_record
    use window_impacts, only: agreement_of, impacts_of_record, window_impacts_t
+   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -90,6 +91,10 @@ contains
       call classify_windows(tighter, tight, error)
       if (allocated(error)) return
       do k = 1, size(tested)
+         if (goes_beyond(group, tested(k)) .and. tight%repeat_after(k) == 0) tight%repeat_after(k) = group%repeat_after(tested(k))
+      end do
+      call complete_windows(tighter, tight)
+      do k = 1, size(tested)
          i = tested(k)
          if (.not. is_success(tight%endings(k)%status)) then
             verifications(i) = no_verification(doubt_t(doubt_second_ending, counts=[tight%endings(k)%status, 0]))
@@ -112,11 +117,13 @@ contains
       type(scene_group_t), intent(inout) :: tight
       type(verification_t), intent(out) :: verification
       type(periodic_orbit_t) :: orbit
+      type(window_record_t) :: record, tight_record
       type(window_impacts_t) :: tight_impacts
 
       associate (problem => scene%resolved%problem, verdict => group%verdicts(place), &
-                 tight_verdict => tight%verdicts(tight_place), record => group%records(place), &
-                 tight_record => tight%records(tight_place))
+                 tight_verdict => tight%verdicts(tight_place))
+         record = judged_record(group, place)
+         tight_record = judged_record(tight, tight_place)
          if (windows%with_orbits) then
             orbit = nearby_orbit(problem, tight%endings(tight_place))
             call note_orbit(tight_verdict, attracting_period(orbit))
@@ -125,7 +132,7 @@ contains
             group%orbits(place) = orbit
          end if
          call note_known(tight_verdict, verdict)
-         call compare(scene, tighter, place, tight_place, group, tight, verification)
+         call compare(scene, tighter, place, tight_place, group, tight, record, tight_record, verification)
          if (allocated(windows%severities)) &
             call note_severity_errors(windows%severities(place), severity_of_record(tight_record, problem%frequency), &
                                       tighter%request%accuracy, verification)
@@ -156,7 +163,7 @@ contains
    end function goes_by_collocation
 
    !> Hold the window of a scene against that of its tighter solution.
-   subroutine compare(scene, tighter, place, tight_place, group, tight, verification)
+   subroutine compare(scene, tighter, place, tight_place, group, tight, record, tight_record, verification)
       type(prepared_scene_t), intent(in) :: scene
       type(prepared_scene_t), intent(in) :: tighter
       !> Of the scene in its group, and in the tighter one
@@ -164,16 +171,19 @@ contains
       integer, intent(in) :: tight_place
       type(scene_group_t), intent(in) :: group
       type(scene_group_t), intent(in) :: tight
+      !> What the steps tell of both motions
+      type(window_record_t), intent(in) :: record
+      type(window_record_t), intent(in) :: tight_record
       type(verification_t), intent(out) :: verification
       type(doubt_t) :: unclosed
       integer, allocatable :: same(:)
 
-      associate (record => group%records(place), tight_record => tight%records(tight_place), verdict => group%verdicts(place), &
+      associate (window => group%records(place), tight_window => tight%records(tight_place), verdict => group%verdicts(place), &
                  tight_verdict => tight%verdicts(tight_place), problem => scene%resolved%problem, own => group%endings(place), &
                  tight_end => tight%endings(tight_place), noise => scene%resolved%noise_floor, &
                  tight_noise => tighter%resolved%noise_floor, choice => scene%spectrum, &
                  samples_per_period => scene%request%samples_per_period)
-         unclosed = doubt_of_windows(problem, record, tight_record, noise, tight_noise, verdict, &
+         unclosed = doubt_of_windows(problem, window, tight_window, noise, tight_noise, verdict, &
                                      doubt_of_samples(scene, verdict, tight_verdict, tight%classified_by(tight_place)), &
                                      own%samples/samples_per_period, tight_end%numbers, choice%verification_tolerance)
          same = same_phase(group%states(:own%samples, of_film, place), tight%states(:tight_end%samples, of_film, tight_place), &
@@ -196,6 +206,8 @@ contains
       integer :: periods
 
       periods = group%endings(place)%samples/scene%request%samples_per_period
+      is_part = .false.
+      if (goes_beyond(group, place)) return
       is_part = group%verdicts(place)%class == class_subharmonic .and. group%repeat_after(place) > periods
       if (is_part) return
       is_part = is_doubted(doubt_of_return(group%verdicts(place), periods, &

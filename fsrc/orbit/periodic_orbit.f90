@@ -1,4 +1,4 @@
-!> The periodic motion next to a state: found by Newton's method on the period map, from period 1 to 8. What its Floquet
+!> The periodic motion next to a state: found by Newton's method on the period map, the shortest period first. What its Floquet
 !> multipliers, the eigenvalues of the Jacobian of that map, say of its stability.
 !>
 !> The period map takes a state at the start of some periods of the force to the one at their end; a motion that repeats is a
@@ -14,8 +14,8 @@ module periodic_orbit
    implicit none(type, external)
    private
 
-   !> Longest period that is looked for [periods of the force]
-   integer, parameter, public :: longest_period = 8
+   !> Longest period that is looked for [periods of the force], and that of a motion which is known to settle
+   integer, parameter, public :: longest_period = 8, longest_settled = 24
    !> Accuracy of the period map, and of the fixed point.
    real(dp), parameter :: map_accuracy = 1.0e-12_dp, converged = 1.0e-10_dp
    !> Accuracy of the map while a fixed point is still sought, and the correction from which on it is found. Most searches end

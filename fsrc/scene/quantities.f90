@@ -136,7 +136,8 @@ module quantities
          'Lambda: largest inertia force that pulls the tooth of a loose gear off its flank over the drag that holds it there; '// &
          'above 1 it leaves without oil.', digits=4), &
       quantity_t(quantity_window_periods, 'window_periods', '-', a_count, part_window, needs_nothing, 'summary', &
-         'Periods of the force at the end of the run that are judged.'), &
+         'Periods of the force at the end of the run that are judged. Where they do not divide into whole repeats of the '// &
+         'motion, it is followed on from their beginning until they do.'), &
       quantity_t(quantity_samples_per_period, 'samples_per_period', '-', a_count, part_window, needs_nothing, 'summary', &
          'Samples of a period that the harmonics are found from.'), &
       quantity_t(quantity_series_coarse, 'series_coarse', '-', a_flag, part_window, needs_nothing, 'summary', &
@@ -254,7 +255,8 @@ module quantities
          'leaves it.', &
          'no separation|separation|single-sided impacts|double-sided impacts|impacts without separation'), &
       quantity_t(quantity_impact_periods, 'impact_periods', '-', a_count, part_window, needs_impacts, 'summary', &
-         'Periods of the window in which impacts were counted: fewer than window_periods where the others repeat them.'), &
+         'Periods in which impacts were counted: fewer than window_periods where the others repeat them, more where the '// &
+         'motion was followed on.'), &
       quantity_t(quantity_impacts_drive, 'impacts_drive', '-', a_count, part_window, needs_impacts, 'summary', &
          'Impacts on the drive flank in impact_periods.'), &
       quantity_t(quantity_impacts_coast, 'impacts_coast', '-', a_count, part_window, needs_impacts, 'summary', &
