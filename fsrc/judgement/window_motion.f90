@@ -69,8 +69,8 @@ contains
    end subroutine note_own_motion
 
    !> A motion by its window. Where the run ended before the motion repeats within the accuracy, the states of the window tell after
-   !> how many periods they come again near enough, or the periodic motion that was found next to its end. One that is irregular so
-   !> far may creep along by less than that and be far from where it settles.
+   !> how many periods they come again near enough, or the periodic motion that was found next to its end. One that is irregular comes
+   !> near where it was and parts from there again, and one that is irregular so far may creep along and be far from where it settles.
    type(settled_motion_t) function motion_of_window(problem, samples_per_period, place, group) result(motion)
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: samples_per_period
@@ -89,7 +89,7 @@ contains
             states(:, i) = group%states(i*samples_per_period, :size(states, 1), place)
          end do
          motion%period = ending%orbit
-         if (motion%period == 0 .and. group%verdicts(place)%class /= class_irregular_so_far) &
+         if (motion%period == 0 .and. all(group%verdicts(place)%class /= [class_irregular, class_irregular_so_far])) &
             motion%period = near_orbit(problem, near_states(problem), states)
          motion%states = states(:, periods - max(1, motion%period) + 1:)
          if (motion%period == 0 .and. group%verdicts(place)%class == class_subharmonic .and. group%repeat_after(place) > 1) &
