@@ -95,7 +95,7 @@ help:
 	@echo 'make measured     what was measured of rebound and onset beside what the program computes'
 	@echo 'make hashes       hashes of what many runs write, as $(BUILD)/hashes.json, or held against those of another build (AGAINST=FILE)'
 	@echo 'make bench        speed of the program beside that of others, as tables; make bench-changed: its last'
-	@echo 'make stress       100000 random scenes: what users are told of them, and every engine (SCENES=N)'
+	@echo 'make stress       100000 random scenes: what users are reported of them, and every engine (SCENES=N)'
 	@echo 'make mutants      break lines changed since SINCE=HEAD~20 in one place at a time: does a test notice? (SAMPLE=40)'
 	@echo 'make faults       runs that meet kills, full disks, little memory, failing calls, other runs, damaged and foreign files'
 	@echo 'make touched      how many files a new law, quantity, key, task or figure takes, by toys in a scratch copy'
@@ -360,7 +360,7 @@ stress-sample: $(STRESS_PROGRAMS) $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(BUILD)/stress_summaries --first 20 --scenes 100 --campaigns 1
 	@$(BUILD)/stress_scenes --scenes 300 --csv $(BUILD)/stress_sample.csv
 	@$(BUILD)/stress_motions --first 10 --scenes 2
-	@$(PYTHON) tests/stress/told_alike.py $(BUILD)/rattle --groups 4
+	@$(PYTHON) tests/stress/reported_alike.py $(BUILD)/rattle --groups 4
 
 # --- style -------------------------------------------------------------------------------------------
 

@@ -177,7 +177,7 @@ contains
          do i = 1, size(seeds)
             if (seeds(i)%judged%side /= side) cycle
             if (is_at(seeds(i), own) .neqv. pass == 1) cycle
-            ! Two motions that do not repeat cannot be told apart.
+            ! Two motions that do not repeat cannot be distinguished.
             if (seeds(i)%judged%period == 0 .and. any(is_between(walks%from, walks%to, seeds(i)%share))) cycle
             if (has_passed(family, seeds(i), direction, passed)) cycle
             call follow_motion(family, seeds(i), direction, first_step, share, ended, passed, walks)

@@ -341,7 +341,7 @@ contains
 
    !> Count a start, and add its motion if that is none of those that are known: one that repeats within the accuracy, or next to
    !> whose end a motion that repeats was found, and whose states are others, or an irregular one where all others repeat. Two
-   !> irregular ones cannot be told apart.
+   !> irregular ones cannot be distinguished.
    subroutine add_motion(scene, place, group, trial, judged)
       type(prepared_scene_t), intent(in) :: scene
       !> Place of the start in its group

@@ -289,7 +289,7 @@ contains
       films = [film, problem%backlash - film]
    end function rigid_films
 
-   !> Film that states of rigid teeth are told apart in: that of the start, between two flanks the thinner one at rest [m].
+   !> Film that states of rigid teeth are distinguished in: that of the start, between two flanks the thinner one at rest [m].
    elemental real(dp) function film_unit(problem)
       type(problem_t), intent(in) :: problem
 

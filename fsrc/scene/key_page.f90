@@ -60,11 +60,11 @@ contains
    !> Keys and quantities as tables in Markdown: the keys of a group by the tasks that use them.
    function page_text() result(text)
       character(:), allocatable :: text
-      logical :: is_told(size(keys))
+      logical :: is_listed(size(keys))
       integer :: first, last, i
 
       text = ''
-      is_told = .false.
+      is_listed = .false.
       last = 0
       do while (last < size(keys))
          first = last + 1
@@ -73,23 +73,23 @@ contains
             last = last + 1
          end do
          text = text//'## &'//trim(keys(first)%group)//end_of_line//end_of_line
-         if (any([(len(tasks_of(keys(i))) == 0, i=first, last)])) call add_table(text, keys(first:last), '', is_told(first:last))
+         if (any([(len(tasks_of(keys(i))) == 0, i=first, last)])) call add_table(text, keys(first:last), '', is_listed(first:last))
          do i = first, last
-            if (.not. is_told(i)) call add_table(text, keys(first:last), tasks_of(keys(i)), is_told(first:last))
+            if (.not. is_listed(i)) call add_table(text, keys(first:last), tasks_of(keys(i)), is_listed(first:last))
          end do
       end do
       text = text//quantity_rows()
    end function page_text
 
    !> Add the keys of a group that certain tasks use.
-   subroutine add_table(text, group, tasks, is_told)
+   subroutine add_table(text, group, tasks, is_listed)
       character(:), allocatable, intent(inout) :: text
       !> All keys of the group
       type(key_t), intent(in) :: group(:)
       !> As words between bars; empty: all tasks
       character(*), intent(in) :: tasks
       !> Whether a key has its row
-      logical, intent(inout) :: is_told(:)
+      logical, intent(inout) :: is_listed(:)
       character(:), allocatable :: column
       logical :: has_needs
       integer :: i
@@ -106,7 +106,7 @@ contains
       do i = 1, size(group)
          if (tasks_of(group(i)) /= tasks) cycle
          text = text//page_row(group(i), has_needs)
-         is_told(i) = .true.
+         is_listed(i) = .true.
       end do
       text = text//end_of_line
    end subroutine add_table

@@ -364,7 +364,7 @@ contains
                body = body//'   '//trim(keys(i)%name)//'(:, '//integer_text(column)//') = '// &
                       numbers_text(input%entries(i)%columns(column)%numbers)//new_line('a')
             end do
-         else if (is_told(i)) then
+         else if (is_shown(i)) then
             body = body//'   '//trim(keys(i)%name)//' = '//value_text(keys(i), input%entries(i))//new_line('a')
          end if
          if (.not. starts_group(i + 1)) cycle
@@ -375,20 +375,20 @@ contains
    contains
 
       !> Whether a key belongs into the text: it has a value, is in use, and is no matter of this machine.
-      pure logical function is_told(i)
+      pure logical function is_shown(i)
          integer, intent(in) :: i
 
-         is_told = input%entries(i)%present .and. in_use(input, i)
-         if (keys(i)%group == 'output') is_told = is_told .and. keys(i)%name /= 'directory' .and. keys(i)%name /= 'overwrite'
+         is_shown = input%entries(i)%present .and. in_use(input, i)
+         if (keys(i)%group == 'output') is_shown = is_shown .and. keys(i)%name /= 'directory' .and. keys(i)%name /= 'overwrite'
          ! The key matters to elastic flanks.
          if (keys(i)%name == 'flattening_included') &
-            is_told = is_told .and. (input%is_given('contact.stiffness') .or. input%word('film.law') == 'elastohydrodynamic' &
+            is_shown = is_shown .and. (input%is_given('contact.stiffness') .or. input%word('film.law') == 'elastohydrodynamic' &
                                      .or. input%number('gear.tooth_stiffness') > 0.0_dp)
          if (keys(i)%name == 'damping_ratio' .or. keys(i)%name == 'tooth_damping_ratio') &
-            is_told = is_told .and. input%entries(i)%number > 0.0_dp
+            is_shown = is_shown .and. input%entries(i)%number > 0.0_dp
          ! In a film task the absent model means more than its default.
-         if (keys(i)%name == 'model') is_told = is_told .and. (input%entries(i)%given .or. input%word('scene.task') /= 'film')
-      end function is_told
+         if (keys(i)%name == 'model') is_shown = is_shown .and. (input%entries(i)%given .or. input%word('scene.task') /= 'film')
+      end function is_shown
 
    end function resolved_text
 

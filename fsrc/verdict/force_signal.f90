@@ -80,12 +80,12 @@ contains
       type(word_t), intent(in) :: names(:)
       real(dp), intent(out) :: rms
       character(:), allocatable, intent(out) :: words
-      logical :: can_be_told
+      logical :: is_known
       integer :: i, j
 
       rms = ieee_value(rms, ieee_quiet_nan)
-      call find_periods(signals, names, words, can_be_told)
-      if (.not. can_be_told) return
+      call find_periods(signals, names, words, is_known)
+      if (.not. is_known) return
       rms = 0.0_dp
       do i = 1, size(signals)
          rms = rms + signals(i)%rms**2
@@ -97,22 +97,22 @@ contains
    end subroutine sum_in_phase
 
    !> Over which periods forces are summed, in words; or why they cannot be.
-   pure subroutine find_periods(signals, names, words, can_be_told)
+   pure subroutine find_periods(signals, names, words, is_known)
       type(force_signal_t), intent(in) :: signals(:)
       type(word_t), intent(in) :: names(:)
       character(:), allocatable, intent(out) :: words
-      logical, intent(out) :: can_be_told
+      logical, intent(out) :: is_known
       logical :: odd(size(signals))
       integer :: i, periods, window
 
       odd = signals%periods == 0
       words = 'unknown, as there is no window of '//joined_words(names, odd)
-      can_be_told = .not. any(odd)
-      if (.not. can_be_told) return
+      is_known = .not. any(odd)
+      if (.not. is_known) return
       odd = [(.not. has_enough_samples(signals(i), power_share), i=1, size(signals))]
       words = 'unknown, as there are too few samples for the force of '//joined_words(names, odd)
-      can_be_told = .not. any(odd)
-      if (.not. can_be_told) return
+      is_known = .not. any(odd)
+      if (.not. is_known) return
       if (all(signals%repeats)) then
          periods = 1
          do i = 1, size(signals)
@@ -126,14 +126,14 @@ contains
       odd = .not. signals%repeats .and. .not. (signals%periods == signals(window)%periods .and. &
                                                signals%last_period == signals(window)%last_period)
       words = 'unknown, as the window of '//names(window)%text//' is not that of '//joined_words(names, odd)
-      can_be_told = .not. any(odd)
-      if (.not. can_be_told) return
+      is_known = .not. any(odd)
+      if (.not. is_known) return
       odd = modulo(signals(window)%periods, signals%periods) > 0
       words = 'unknown, as the window of '//names(window)%text//', which was not seen to repeat, has '// &
               counted(signals(window)%periods, 'period')//', no multiple of those after which '//joined_words(names, odd)// &
               trim(merge(' repeats', ' repeat ', count(odd) == 1))
-      can_be_told = .not. any(odd)
-      if (.not. can_be_told) return
+      is_known = .not. any(odd)
+      if (.not. is_known) return
       words = 'over the last '//counted(signals(window)%periods, 'period')//' of '// &
               integer_text(signals(window)%last_period)//', the window of '
       if (any(signals%repeats)) then

@@ -93,7 +93,7 @@ class Result(ResultFile):
         frame = pandas.DataFrame(self.table())
         for name in (name for name in self.names if quantity_of(name) in CODES):
             frame[name + WORD_ENDING] = [word(name, code) for code in frame[name]]
-        frame.attrs = {"units": dict(self.units), **self._told}
+        frame.attrs = {"units": dict(self.units), **self._reported}
         return frame
 
     def to_xarray(self) -> xarray.Dataset:
@@ -105,12 +105,12 @@ class Result(ResultFile):
             name: (along, values, attributes(name, self.units[name])) for name, values in columns.items()
         }
         coordinates = {TIME: variables.pop(TIME)} if TIME in self else {}
-        return xarray.Dataset(variables, coordinates, self._told)
+        return xarray.Dataset(variables, coordinates, self._reported)
 
     frame, dataset = to_dataframe, to_xarray
 
     @property
-    def _told(self) -> dict[str, str]:
+    def _reported(self) -> dict[str, str]:
         return {
             "title": self.scene_name,
             "source": f"rattle {self.program_version}",

@@ -71,8 +71,8 @@ def main() -> None:
         base = statistics.median(times[next(iter(LAWS)), verified])
         for name in LAWS:
             median = statistics.median(times[name, verified])
-            told = ", verified" if verified else ""
-            print(f"| {name}{told} | {1e3 * median / options.side**2:.2f} ms | {median / base:.2f} |")
+            reported = ", verified" if verified else ""
+            print(f"| {name}{reported} | {1e3 * median / options.side**2:.2f} ms | {median / base:.2f} |")
     print(f"\n{options.many**2} gears by the closure, Roelands: {many:.1f} s of processor time")
 
 

@@ -111,7 +111,7 @@ munged --key-file="$place/munge.key" --socket="$place/munge.socket" --pid-file="
     --log-file="$place/log/munged.log" --seed-file="$place/munged.seed" --num-threads=2
 wait_for 10 munged "$place/log/munged.log" munge --socket="$place/munge.socket" --no-input --output=/dev/null
 
-# From here on stop_cluster.sh knows what to stop. Open MPI refuses root and more ranks than cores unless told.
+# From here on stop_cluster.sh knows what to stop. Open MPI refuses root and more ranks than cores unless allowed.
 cat > "$place/environment" << ENVIRONMENT
 export PATH="\$PATH:/usr/sbin:/sbin"
 export SLURM_CONF='$place/slurm.conf'

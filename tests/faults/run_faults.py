@@ -420,7 +420,7 @@ class Study:
             self.score("two runs at a time", task, faults + self.after(task, 0), str(codes))
 
     def flips(self, task: Task) -> None:
-        """One flipped bit in a file: told, or nothing that is read has changed."""
+        """One flipped bit in a file: reported, or nothing that is read has changed."""
         written = Counter(kind_of(name) for other in TASKS for name in (*other.files, *other.summaries))
         for name in (*task.files, *task.summaries):
             # Kinds of files that few tasks write are tried as often as the others.
@@ -504,14 +504,14 @@ class Study:
                 (self.results / name).unlink(missing_ok=True)
             before = {path.name: path.read_bytes() for path in self.results.iterdir()}
             key = self.edit(task)
-            ended = self.told("--resume")
+            ended = self.reported("--resume")
             faults = [] if ended.returncode == 2 else [f"exit code {ended.returncode}"]
             faults += [] if f"{key} is " in ended.stderr else [f"it says {ended.stderr[:200]}"]
             after = {path.name: path.read_bytes() for path in self.results.iterdir()}
             faults += [] if before == after else ["the finished files have changed"]
             self.score("edited input, --resume", task, faults, key)
 
-    def told(self, *options: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    def reported(self, *options: str, **environment: str) -> subprocess.CompletedProcess[str]:
         """One run with its words."""
         return subprocess.run(
             [self.program, "--quiet", "--threads", "2", *options, "scene.nml"],
@@ -600,7 +600,7 @@ class Study:
             before = elsewhere.read_bytes() if elsewhere.is_file() else None
             (self.results / name).unlink(missing_ok=True)
             (self.results / name).symlink_to(elsewhere)
-            ended = self.told(*self.random.choice(([], ["--resume"], ["--overwrite"])))
+            ended = self.reported(*self.random.choice(([], ["--resume"], ["--overwrite"])))
             faults = [] if ended.returncode == 2 else [f"exit code {ended.returncode}"]
             faults += [] if "is a link" in ended.stderr else [f"it says {ended.stderr[:200]}"]
             after = elsewhere.read_bytes() if elsewhere.is_file() else None
@@ -679,10 +679,10 @@ class Study:
             self.random.choice((self.lay_out, self.finished))(task)
             before = {path.name: path.read_bytes() for path in self.results.iterdir()}
             cause = self.random.choice(LOCK_ERRORS)
-            ended = self.told("--overwrite", LD_PRELOAD=str(self.shim), FAULT_FLOCK=str(cause))
+            ended = self.reported("--overwrite", LD_PRELOAD=str(self.shim), FAULT_FLOCK=str(cause))
             faults = [] if ended.returncode == 3 else [f"exit code {ended.returncode}"]
-            told = f"cannot be locked: {os.strerror(cause)}" in ended.stderr
-            faults += [] if told else [f"it says {ended.stderr[:200]}"]
+            reported = f"cannot be locked: {os.strerror(cause)}" in ended.stderr
+            faults += [] if reported else [f"it says {ended.stderr[:200]}"]
             after = {path.name: path.read_bytes() for path in self.results.iterdir()}
             faults += (
                 [] if all(after.get(name) == content for name, content in before.items()) else ["it wrote"]
@@ -692,7 +692,7 @@ class Study:
             self.score("a lock fails", task, faults + self.complete(task) + self.litter(), os.strerror(cause))
 
     def unreadable(self, task: Task) -> None:
-        """A file of an earlier run may not be read: it is told as such. Root, who may all, is nobody here."""
+        """A file of an earlier run may not be read: this is reported. Root, who may all, is nobody here."""
         program = self.folder / "rattle"
         shutil.copy(self.program, program)
         as_nobody = {"user": NOBODY, "group": NOBODY, "extra_groups": []} if os.geteuid() == 0 else {}
@@ -733,7 +733,7 @@ class Study:
             process.send_signal(number)
             process.wait(120)
             faults = self.belongs() + self.kept_foreign()
-            ended = self.told("--resume")
+            ended = self.reported("--resume")
             faults += [] if ended.returncode == 0 else [f"--resume: {ended.stderr[:200]}"]
             self.score(
                 "a script is interrupted", task, faults + self.complete(task) + self.litter(), number.name
@@ -800,7 +800,7 @@ class Study:
             except (CommandError, rattle.ResultError):
                 faults += ["a file is left"] if output.exists() else []
             else:
-                # Bits that nothing hangs on may be damaged; all else is told.
+                # Bits that nothing hangs on may be damaged; all else is reported.
                 same = output.read_bytes() == task.expected["scene.rattle"]
                 faults += [] if kind == "damaged" and same else ["they were joined"]
                 output.unlink()

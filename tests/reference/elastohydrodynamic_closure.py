@@ -256,18 +256,18 @@ def random_gear(random: np.random.Generator) -> Gear:
     )
 
 
-def told_by(program: str, gear: Gear, folder: Path, periods: int = 1) -> dict[str, float]:
+def reported_by(program: str, gear: Gear, folder: Path, periods: int = 1) -> dict[str, float]:
     """The same numbers by the program."""
     path = folder / "gear.nml"
     path.write_text(gear.input("gear", periods))
     command = [program, "--quiet", "--overwrite", "--output", str(folder), str(path)]
     subprocess.run(command, check=True)
-    told = {}
+    reported = {}
     for line in (folder / "gear.summary.nml").read_text().splitlines():
         name, equals, value = line.strip().partition(" = ")
         if equals and name in KEYS:
-            told[name] = float(value)
-    return told
+            reported[name] = float(value)
+    return reported
 
 
 KEYS = (
@@ -286,8 +286,8 @@ def main(program: str, scenes: str = "20", seed: str = "1") -> None:
     with tempfile.TemporaryDirectory() as folder:
         for number in range(int(scenes)):
             gear = random_gear(random)
-            expected, told = gear.extremes(), told_by(program, gear, Path(folder))
-            off.append([abs(told[key] / expected[key] - 1.0) for key in KEYS])
+            expected, reported = gear.extremes(), reported_by(program, gear, Path(folder))
+            off.append([abs(reported[key] / expected[key] - 1.0) for key in KEYS])
             print(
                 number,
                 gear.law,

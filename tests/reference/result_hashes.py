@@ -35,7 +35,7 @@ sys.path.insert(0, str(REPOSITORY / "tests" / "user"))
 
 import gear_rows  # noqa: E402
 import numpy as np  # noqa: E402
-import told_alike  # noqa: E402
+import reported_alike  # noqa: E402
 from waiting import let_work  # noqa: E402
 
 from rattle.result_header import read_header  # noqa: E402
@@ -241,10 +241,10 @@ def stress_cases(program: Path, record: str, groups: int, gears: int) -> Iterato
     """Random scenes alone, as rows of a campaign, and as values of a sweep."""
     variants = ("", "solver.starts=1", "solver.starts=3", NEWMARK)
     for number in range(1, groups + 1):
-        shared, scenes = told_alike.draw(number)
+        shared, scenes = reported_alike.draw(number)
         for place, scene in enumerate(scenes):
             words = variants[(place + number) % len(variants)]
-            text = told_alike.input_text(shared, scene, "")
+            text = reported_alike.input_text(shared, scene, "")
             if words == NEWMARK:
                 rigid = "stiffness" not in text
                 words = words if rigid else ""
@@ -260,7 +260,7 @@ def stress_cases(program: Path, record: str, groups: int, gears: int) -> Iterato
         )
         files = {
             "rows.csv": ",".join(names) + "\n" + rows,
-            "many.nml": told_alike.input_text(shared, scenes[0], campaign),
+            "many.nml": reported_alike.input_text(shared, scenes[0], campaign),
         }
         yield Case(f"stress group {number}, rows", (("--quiet", "many.nml"),), files, quick=number <= 2)
         amplitude = scenes[0]["load.force_amplitude"]
@@ -268,7 +268,7 @@ def stress_cases(program: Path, record: str, groups: int, gears: int) -> Iterato
             "&scene task = 'sweep' /\n&sweep key = 'force_amplitude', "
             f"first = {amplitude!r}, last = {1.5 * amplitude!r}, count = 5 /"
         )
-        text = told_alike.input_text(re.sub(r"until = '\w+', ", "", shared), scenes[0], sweep)
+        text = reported_alike.input_text(re.sub(r"until = '\w+', ", "", shared), scenes[0], sweep)
         yield Case(
             f"stress group {number}, sweep",
             (("--quiet", "swept.nml"),),

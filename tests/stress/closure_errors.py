@@ -91,14 +91,14 @@ def solved(scene: dict, settings: dict, program: Path) -> dict:
             return {"status": str(failure)}
 
 
-def film_of(told: dict) -> float:
+def film_of(reported: dict) -> float:
     """Smallest film of both flanks [m]."""
-    return min(told["film_minimum"], told["coast_film_minimum"])
+    return min(reported["film_minimum"], reported["coast_film_minimum"])
 
 
-def peak_of(told: dict) -> float:
+def peak_of(reported: dict) -> float:
     """Largest acceleration either way [m/s2]."""
-    return max(told["acceleration_maximum"], -told["acceleration_minimum"])
+    return max(reported["acceleration_maximum"], -reported["acceleration_minimum"])
 
 
 def compare(number: int, program: Path) -> Row | str:
@@ -106,9 +106,9 @@ def compare(number: int, program: Path) -> Row | str:
     scene, unit = scene_of(number)
     closure = solved(scene, {"film.model": "closure", "solver.starts": 1}, program)
     nodes = solved(scene, {"film.model": "resolved", **IN_NODES}, program)
-    for name, told in (("closure", closure), ("nodes", nodes)):
-        if told["status"] != "complete":
-            return f"{name}: {told['status']}"
+    for name, reported in (("closure", closure), ("nodes", nodes)):
+        if reported["status"] != "complete":
+            return f"{name}: {reported['status']}"
     load = max(nodes["load_maximum"], nodes["coast_load_maximum"]) / unit
     shaking = scene["load"]["force_amplitudes"][0] / scene["load"]["mass"]
     peak = abs(peak_of(closure) - peak_of(nodes)) / max(peak_of(nodes), shaking)

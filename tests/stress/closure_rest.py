@@ -83,10 +83,10 @@ def film_in_nodes(gear: reference.Gear, load: float, nodes: int, program: Path) 
     }
     with tempfile.TemporaryDirectory() as folder:
         try:
-            told = rattle.run(scene, folder=folder, program=program).summary
+            reported = rattle.run(scene, folder=folder, program=program).summary
         except rattle.SceneFailed:
             return None
-    return told["film_minimum"] / gear.film_unit
+    return reported["film_minimum"] / gear.film_unit
 
 
 def steepest(gear: reference.Gear) -> float:

@@ -168,8 +168,8 @@ def refused_beyond(program: Path, folder: Path, key: Key) -> tuple[float, ...]:
     if key.group in ("sweep", "campaign"):
         return ()
     groups = next(with_key(POINTS if key.group == "points" else MOTION, key, 1e300))
-    _, told = outcome(program, folder, groups, seconds=10.0)
-    found = re.search(r"possible: (\S+) to (\S+)", told)
+    _, reported = outcome(program, folder, groups, seconds=10.0)
+    found = re.search(r"possible: (\S+) to (\S+)", reported)
     return (float(found[1]), float(found[2])) if found else ()
 
 
@@ -235,7 +235,7 @@ def drawn_inputs(keys: list[Key], draws: int, seed: int) -> Iterator[tuple[str, 
 
 
 def outcome(program: Path, folder: Path, groups: Groups, *, seconds: float) -> tuple[str, str]:
-    """How --check and, of a valid input, a run ended, in words; and what was told on standard error."""
+    """How --check and, of a valid input, a run ended, in words; and what was reported on standard error."""
     (folder / "extreme.nml").write_text(namelist(groups))
     code = 2
     for options in (["--check"], ["--overwrite", "--quiet"]):
@@ -279,11 +279,11 @@ def main() -> int:
         ):
             if not title.startswith(arguments.only):
                 continue
-            words, told = outcome(program, Path(name), groups, seconds=arguments.seconds)
+            words, reported = outcome(program, Path(name), groups, seconds=arguments.seconds)
             tally[words.split(" in ")[0]] += 1
             if words.startswith(("CRASHED", "hung", "refused only")):
                 bad.append(title)
-                print(f"{title}: {words}\n{told}\n{namelist(groups)}", flush=True)
+                print(f"{title}: {words}\n{reported}\n{namelist(groups)}", flush=True)
     for words, count in sorted(tally.items()):
         print(f"{count:6d} {words}")
     return 1 if bad else 0

@@ -49,14 +49,14 @@ module gear_motions
    end type gear_scene_t
 
    !> What the row of a campaign tells.
-   type, public :: told_row_t
+   type, public :: reported_row_t
       logical :: judged = .false.
       integer :: motions = 0, starts = 0, unsettled = 0
       !> Of the motions from rest, loudest and quietest [m/s2]
       real(dp) :: rest_rms = 0.0_dp, loudest_rms = 0.0_dp, quietest_rms = 0.0_dp
-   end type told_row_t
+   end type reported_row_t
 
-   public :: read_pairs, draw_gear_scene, motions_told, row_told
+   public :: read_pairs, draw_gear_scene, motions_reported, row_reported
 
 contains
 
@@ -125,10 +125,10 @@ contains
       end do
    end function key_positions
 
-   !> All motions that are told of a scene alone.
-   subroutine motions_told(drawn, told, periods, judged)
+   !> All motions that are reported of a scene alone.
+   subroutine motions_reported(drawn, reported, periods, judged)
       type(gear_scene_t), intent(in) :: drawn
-      type(coexisting_motions_t), intent(out) :: told
+      type(coexisting_motions_t), intent(out) :: reported
       !> Periods solved from the own start, and from the others
       integer, intent(out) :: periods(2)
       !> Whether there was anything to tell
@@ -150,14 +150,14 @@ contains
       if (.not. judged) return
       call find_all_motions(scene, 0.0_dp, space, result, error)
       judged = .not. allocated(error)
-      told = result(1)%coexisting
-      periods = [result(1)%ending%periods, told%extra_periods]
-   end subroutine motions_told
+      reported = result(1)%coexisting
+      periods = [result(1)%ending%periods, reported%extra_periods]
+   end subroutine motions_reported
 
    !> What the row in the middle of a small grid over speed and temperature tells.
-   subroutine row_told(drawn, told)
+   subroutine row_reported(drawn, reported)
       type(gear_scene_t), intent(in) :: drawn
-      type(told_row_t), intent(out) :: told
+      type(reported_row_t), intent(out) :: reported
       integer, parameter :: middle = half_grid*(grid_points + 1) + 1
       type(scene_t) :: scene
       type(sample_plan_t) :: plan
@@ -189,15 +189,15 @@ contains
       call solve_scenes(scene, plan, 1_int64, space, rows, error)
       if (allocated(error)) return
       associate (row => rows(2 + size(axes):, middle))
-         told%judged = is_success(nint(row(1))) .and. row(3) >= 1.0_dp
-         if (.not. told%judged) return
-         told%rest_rms = row(2)
-         told%motions = nint(row(3))
-         told%starts = nint(row(4))
-         told%unsettled = nint(row(5))
-         told%loudest_rms = row(6)
-         told%quietest_rms = row(7)
+         reported%judged = is_success(nint(row(1))) .and. row(3) >= 1.0_dp
+         if (.not. reported%judged) return
+         reported%rest_rms = row(2)
+         reported%motions = nint(row(3))
+         reported%starts = nint(row(4))
+         reported%unsettled = nint(row(5))
+         reported%loudest_rms = row(6)
+         reported%quietest_rms = row(7)
       end associate
-   end subroutine row_told
+   end subroutine row_reported
 
 end module gear_motions

@@ -224,10 +224,10 @@ def _differences(rows, row: int, alone: dict, recorded: list[str]) -> Iterator[s
         if name == "harmonics":
             if "harmonics" not in alone:
                 continue
-            told = np.array(alone["harmonics"][:8], dtype=float)
+            reported = np.array(alone["harmonics"][:8], dtype=float)
             here = np.array([rows[f"harmonic_{n}"][row] for n in range(1, 9)])
-            if not np.array_equal(told, here[: told.size]):
-                yield f"harmonics {here} for {told}"
+            if not np.array_equal(reported, here[: reported.size]):
+                yield f"harmonics {here} for {reported}"
             continue
         if name not in alone:
             # A period of 0 is none.
@@ -235,15 +235,15 @@ def _differences(rows, row: int, alone: dict, recorded: list[str]) -> Iterator[s
                 continue
             yield f"{name} {rows[name][row]!r}, which the single scene does not tell"
             continue
-        told = alone[name]
+        reported = alone[name]
         if name in CODES:
-            told = {words: code for code, words in CODES[name].items()}[str(told).strip()]
+            reported = {words: code for code, words in CODES[name].items()}[str(reported).strip()]
         if name.endswith("_error"):
             number = alone.get(name.removesuffix("_error"), 1.0)
-            if not is_error_of_summary(float(told), float(rows[name][row]), float(number)):
-                yield f"{name} {rows[name][row]!r} for {told!r}"
-        elif float(told) != float(rows[name][row]):
-            yield f"{name} {rows[name][row]!r} for {told!r}"
+            if not is_error_of_summary(float(reported), float(rows[name][row]), float(number)):
+                yield f"{name} {rows[name][row]!r} for {reported!r}"
+        elif float(reported) != float(rows[name][row]):
+            yield f"{name} {rows[name][row]!r} for {reported!r}"
 
 
 def is_error_of_summary(shown: float, error: float, number: float) -> bool:

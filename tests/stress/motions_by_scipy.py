@@ -5,9 +5,9 @@
 Scenes as of stress_motions: a pair of input/gearbox_map.nml at a speed, a temperature, a tooth stiffness
 and a strength of the orders that are drawn, its damping ratio below 0.3. The program tells its motions from
 29 starts. The equations are those of tests/reference/elastohydrodynamic_closure.py, written from the theory
-alone, and scipy's Radau method solves them: from the state of each told motion for one period of it, and from
-random starts (middle half of the gap, velocities within 2 v*), period by period until each has stayed on a
-motion.
+alone, and scipy's Radau method solves them: from the state of each reported motion for one period of it, and
+from random starts (middle half of the gap, velocities within 2 v*), period by period until each has stayed on
+a motion.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class Motion:
 
     states: list[np.ndarray]
     starts: int = 0
-    told: bool = False
+    reported: bool = False
     rms: float = 0.0
 
 
@@ -75,15 +75,15 @@ class Found:
 class Scene:
     """A scene of the program for scipy."""
 
-    def __init__(self, told: dict, scale: float) -> None:
-        numbers = {name: float(told[name]) for name in NUMBERS}
-        orders = np.atleast_1d(told["force_orders"]).astype(int)
+    def __init__(self, reported: dict, scale: float) -> None:
+        numbers = {name: float(reported[name]) for name in NUMBERS}
+        orders = np.atleast_1d(reported["force_orders"]).astype(int)
         amplitudes, phases = np.zeros(orders.max()), np.zeros(orders.max())
         # The summary has them before load.force_scale.
-        amplitudes[orders - 1] = scale * np.atleast_1d(told["force_amplitudes"])
-        phases[orders - 1] = np.atleast_1d(told["force_phases"])
+        amplitudes[orders - 1] = scale * np.atleast_1d(reported["force_amplitudes"])
+        phases[orders - 1] = np.atleast_1d(reported["force_phases"])
         self.gear = gear = closure.Gear(
-            speed=2.0 * float(told["entrainment_speed"]),
+            speed=2.0 * float(reported["entrainment_speed"]),
             amplitudes=tuple(amplitudes.tolist()),
             phases=tuple(phases.tolist()),
             law="roelands",
@@ -105,8 +105,8 @@ class Scene:
         except (ArithmeticError, ValueError):
             return [math.nan] * 4
 
-    def told_state(self, row) -> list[float]:
-        """State from the numbers of a told motion."""
+    def reported_state(self, row) -> list[float]:
+        """State from the numbers of a reported motion."""
         gear = self.gear
         m1, m2 = (
             gear.stiffness * float(value) / gear.load_unit
@@ -246,7 +246,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     random = np.random.default_rng(options.seed)
-    motions = met = told_count = left = 0
+    motions = met = reported_count = left = 0
     missed = []
     with tempfile.TemporaryDirectory() as folder:
         for name in ("gearbox_run_up.csv",):
@@ -257,8 +257,8 @@ def main() -> None:
             for row in frame.itertuples():
                 if row.orbit_period == 0:
                     continue
-                told_count += 1
-                state = scene.told_state(row)
+                reported_count += 1
+                state = scene.reported_state(row)
                 _, ends, rms = scene.carry_on(state, int(row.orbit_period), squares=True)
                 states = [np.array(state[:2]), *ends[:-1]]
                 apart = scene.distance(ends[-1], states[0])
@@ -266,26 +266,28 @@ def main() -> None:
                 if apart > SAME:
                     left += 1
                     continue
-                found.motions.append(Motion(states, told=True, rms=rms))
+                found.motions.append(Motion(states, reported=True, rms=rms))
             irregular = bool((frame.orbit_period == 0).any()) or int(summary["unsettled_starts"]) > 0
             for _ in range(options.starts):
                 share, speed = random.uniform(0.25, 0.75), random.uniform(-2.0, 2.0)
                 scene.follow(scene.start(share, speed), found)
             reached = [motion for motion in found.motions if motion.starts > 0]
             motions += len(reached) + (found.unsettled > 0)
-            met += sum(motion.told for motion in reached) + (found.unsettled > 0 and irregular)
-            lost = [motion for motion in reached if not motion.told]
+            met += sum(motion.reported for motion in reached) + (found.unsettled > 0 and irregular)
+            lost = [motion for motion in reached if not motion.reported]
             missed += [(number, motion.rms, motion.starts) for motion in lost]
             print(
-                f"{number}: {words}; told {len(frame)}, "
+                f"{number}: {words}; reported {len(frame)}, "
                 + ", ".join(f"{rms:.4g}" for rms in frame.acceleration_rms)
                 + f" m/s2, {summary['unsettled_starts']} of 29 starts unsettled; scipy: "
-                + ", ".join(f"{m.rms:.4g} m/s2 {m.starts}{'' if m.told else ' NOT TOLD'}" for m in reached)
+                + ", ".join(
+                    f"{m.rms:.4g} m/s2 {m.starts}{'' if m.reported else ' NOT REPORTED'}" for m in reached
+                )
                 + f", unsettled {found.unsettled}; off "
                 + ", ".join(f"{a:.1e} {b:.1e}" for a, b in off),
                 flush=True,
             )
-    print(f"motions of scipy {motions}, told {met}; told ones {told_count}, left by scipy {left}")
+    print(f"motions of scipy {motions}, reported {met}; reported ones {reported_count}, left by scipy {left}")
     print("missed (scene, m/s2, starts):", missed)
     sys.exit(1 if left else 0)
 

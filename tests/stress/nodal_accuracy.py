@@ -23,21 +23,21 @@ def solution_of(number: int, accuracy: float, program: Path) -> tuple[dict, floa
     """Summary of a scene, and the processor time that it took [s]."""
     settings = {"film.model": "resolved", "solver.accuracy": accuracy}
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    told = solved(scene_of(number)[0], settings, program)
-    return told, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+    reported = solved(scene_of(number)[0], settings, program)
+    return reported, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
 
 def row_of(accuracy: float, numbers: range, references: dict[int, dict], program: Path) -> str:
     """A line of the table: errors, scenes that miss the goals, and times."""
     peaks, films, seconds, misses = [], [], [], []
     for number in numbers:
-        told, spent = solution_of(number, accuracy, program)
+        reported, spent = solution_of(number, accuracy, program)
         seconds.append(spent)
-        if not told["status"] == references[number]["status"] == "complete":
-            misses.append(f"{number} ({told['status']})")
+        if not reported["status"] == references[number]["status"] == "complete":
+            misses.append(f"{number} ({reported['status']})")
             continue
-        peaks.append(abs(peak_of(told) / peak_of(references[number]) - 1.0))
-        films.append(abs(film_of(told) / film_of(references[number]) - 1.0))
+        peaks.append(abs(peak_of(reported) / peak_of(references[number]) - 1.0))
+        films.append(abs(film_of(reported) / film_of(references[number]) - 1.0))
         if peaks[-1] > accuracy or films[-1] > 3.0 * accuracy:
             misses.append(f"{number} (peak {peaks[-1]:.1e}, film {films[-1]:.1e})")
     pairs = [(choice, errors) for errors in (peaks, films) for choice in (statistics.median, max)]

@@ -39,7 +39,7 @@ CLASS_NAMES = ("rattle_class", "reference_class")
 FIELDS = (
     *("kind", "number", "law", "load", "status", "reference", "seconds", "verdict", "verdict_verified"),
     *("reference_verdict", "rattle_class", "class_verified", "reference_class"),
-    *("peak_error", "peak_error_told", "film_error", "film_error_told"),
+    *("peak_error", "peak_error_reported", "film_error", "film_error_reported"),
 )
 
 
@@ -54,9 +54,9 @@ def heavy_scene_of(number: int) -> tuple[dict, float]:
     return scene, unit
 
 
-def load_of(told: dict, unit: float) -> float:
+def load_of(reported: dict, unit: float) -> float:
     """Largest load M of both flanks."""
-    return max(told["load_maximum"], told["coast_load_maximum"]) / unit
+    return max(reported["load_maximum"], reported["coast_load_maximum"]) / unit
 
 
 def row_of(kind: str, number: int, program: Path) -> dict | None:
@@ -70,16 +70,16 @@ def row_of(kind: str, number: int, program: Path) -> dict | None:
     if kind == "heavy" and not (row["load"] != "" and HEAVY[0] <= row["load"] <= HEAVY[1]):
         return None
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    told = solved(scene, VERIFIED, program)
+    reported = solved(scene, VERIFIED, program)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     row["seconds"] = round(after.ru_utime - before.ru_utime, 3)
-    row["status"] = told["status"]
-    if told["status"] != "complete":
+    row["status"] = reported["status"]
+    if reported["status"] != "complete":
         return row
-    row["load"] = load_of(told, unit)
-    row.update(verdict=told["verdict"], rattle_class=told["rattle_class"])
-    row["verdict_verified"] = int(bool(told.get("verdict_verified", False)))
-    row["class_verified"] = int(told.get("verification") == "verified")
+    row["load"] = load_of(reported, unit)
+    row.update(verdict=reported["verdict"], rattle_class=reported["rattle_class"])
+    row["verdict_verified"] = int(bool(reported.get("verdict_verified", False)))
+    row["class_verified"] = int(reported.get("verification") == "verified")
     if number % REFERENCE_OF != 0:
         return row
     finer = solved(scene, REFERENCE, program)
@@ -89,10 +89,10 @@ def row_of(kind: str, number: int, program: Path) -> dict | None:
     off = finer["irregular_fraction"] > IRREGULAR_LIMIT
     row.update(reference_verdict=finer["verdict"])
     row.update(reference_class=OFF_HARMONICS[0] if off else finer["rattle_class"])
-    row["peak_error"] = abs(peak_of(told) / peak_of(finer) - 1.0)
-    row["film_error"] = abs(film_of(told) / film_of(finer) - 1.0)
-    row["peak_error_told"] = told.get("acceleration_error", "")
-    row["film_error_told"] = told.get("film_error", "")
+    row["peak_error"] = abs(peak_of(reported) / peak_of(finer) - 1.0)
+    row["film_error"] = abs(film_of(reported) / film_of(finer) - 1.0)
+    row["peak_error_reported"] = reported.get("acceleration_error", "")
+    row["film_error_reported"] = reported.get("film_error", "")
     return row
 
 

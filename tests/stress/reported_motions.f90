@@ -5,7 +5,7 @@
 program reported_motions
    use, intrinsic :: iso_fortran_env, only: int64
    use coexisting_motions, only: coexisting_motions_t
-   use gear_motions, only: draw_gear_scene, gear_scene_t, motions_told, read_pairs, row_told, told_row_t
+   use gear_motions, only: draw_gear_scene, gear_scene_t, motions_reported, read_pairs, row_reported, reported_row_t
    use kinds, only: dp
    use scene_types, only: scene_t
    implicit none(type, external)
@@ -39,7 +39,7 @@ contains
       integer(int64), intent(in) :: number
       type(gear_scene_t) :: drawn
       type(coexisting_motions_t) :: reported
-      type(told_row_t) :: row
+      type(reported_row_t) :: row
       real(dp) :: times(3), none
       integer :: periods(2), k
       logical :: judged
@@ -47,9 +47,9 @@ contains
       none = 0.0_dp
       call draw_gear_scene(pairs, 1_int64, number, drawn)
       call cpu_time(times(1))
-      call motions_told(drawn, reported, periods, judged)
+      call motions_reported(drawn, reported, periods, judged)
       call cpu_time(times(2))
-      call row_told(drawn, row)
+      call row_reported(drawn, row)
       call cpu_time(times(3))
       if (judged) then
          write (unit, row_form) number, 'alone', 'all', size(reported%motions), 0, reported%unsettled_starts, &

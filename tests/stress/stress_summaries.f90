@@ -19,10 +19,10 @@ program stress_summaries
    use run_sweep, only: carried_state_t
    use scene_namelist, only: print_namelist
    use scene_types, only: scene_t
-   use summary_outcomes, only: outcome_of_row, outcome_of_summary, told_long, told_names, told_outcome_t, &
-                               told_outcomes, told_silent
+   use summary_outcomes, only: outcome_of_row, outcome_of_summary, reported_long, reported_names, reported_outcome_t, &
+                               reported_outcomes, reported_silent
    use text, only: integer_text
-   use told_summary, only: rows_told, steps_expected, summary_told, told_t, value_told
+   use reported_summary, only: rows_reported, steps_expected, summary_reported, reported_t, value_reported
    implicit none(type, external)
 
    !> The scenes of a table: all decades, loose gears, rows of campaigns without and with verification, values of sweeps.
@@ -30,9 +30,9 @@ program stress_summaries
       'verified rows', 'sweep values']
    integer(int64) :: scenes = 100000_int64, campaigns = -1_int64, sweeps = -1_int64, seed = 1_int64, first = 0_int64, number, &
       longest = huge(1_int64)
-   integer(int64) :: counts(told_outcomes, laws, size(kinds_of_scenes)) = 0_int64
+   integer(int64) :: counts(reported_outcomes, laws, size(kinds_of_scenes)) = 0_int64
    character(512) :: failures = ''
-   logical :: listed(told_outcomes) = .false.
+   logical :: listed(reported_outcomes) = .false.
    real(dp) :: started, seconds(2) = 0.0_dp, row_seconds(2) = 0.0_dp, value_seconds(2) = 0.0_dp, slowest = 0.0_dp
    integer(int64) :: slowest_scene = 0_int64
    type(lobatto_rule_t) :: rule
@@ -68,8 +68,8 @@ program stress_summaries
    print '(6(a, f0.1), a)', 'seconds of the program ', seconds(1), ', of the reference ', seconds(2), '; of campaigns ', &
       row_seconds(1), ' and ', row_seconds(2), '; of sweeps ', value_seconds(1), ' and ', value_seconds(2), ', all threads together'
    print '(a, i0, a, f0.2, a)', 'slowest scene: ', slowest_scene, ', ', slowest, ' s'
-   print '(a, i0)', 'silent failures: ', sum(counts(told_silent, :, :))
-   if (any(counts(told_silent, :, :) > 0_int64)) stop 1
+   print '(a, i0)', 'silent failures: ', sum(counts(reported_silent, :, :))
+   if (any(counts(reported_silent, :, :) > 0_int64)) stop 1
 
 contains
 
@@ -77,20 +77,20 @@ contains
    subroutine run_scene(number)
       integer(int64), intent(in) :: number
       type(drawn_scene_t) :: drawn
-      type(told_t) :: told
-      type(told_outcome_t) :: outcome
+      type(reported_t) :: reported
+      type(reported_outcome_t) :: outcome
       real(dp) :: times(3)
       integer :: law
 
       call draw_judged_scene(seed, number, drawn, law)
       times = wall_seconds()
       if (all(steps_expected([drawn]) <= longest)) then
-         call summary_told(drawn, told)
+         call summary_reported(drawn, reported)
          times(2) = wall_seconds()
-         call outcome_of_summary(drawn, rule, told, outcome)
+         call outcome_of_summary(drawn, rule, reported, outcome)
          times(3) = wall_seconds()
       else
-         outcome = told_outcome_t(code=told_long, fault='')
+         outcome = reported_outcome_t(code=reported_long, fault='')
       end if
       !$omp critical (count_summaries)
       if (times(3) - times(1) > slowest) then
@@ -107,24 +107,24 @@ contains
       integer(int64), intent(in) :: number
       type(scene_t) :: base
       type(drawn_scene_t), allocatable :: drawn(:)
-      type(told_t), allocatable :: told(:)
-      type(told_outcome_t) :: outcome
+      type(reported_t), allocatable :: reported(:)
+      type(reported_outcome_t) :: outcome
       real(dp) :: values(size(campaign_keys), campaign_rows), times(3)
       logical :: verified, too_long
       integer :: law, i
 
-      allocate (drawn(campaign_rows), told(campaign_rows))
+      allocate (drawn(campaign_rows), reported(campaign_rows))
       call draw_campaign(seed, number, base, law, values, drawn)
       times(1) = wall_seconds()
       verified = modulo(number, 4_int64) == 3_int64
       too_long = sum(steps_expected(drawn)) > longest/3_int64*int(campaign_rows, int64)
-      if (.not. too_long) call rows_told(base, campaign_keys, values, verified, told)
+      if (.not. too_long) call rows_reported(base, campaign_keys, values, verified, reported)
       times(2) = wall_seconds()
       do i = 1, campaign_rows
          if (too_long) then
-            outcome = told_outcome_t(code=told_long, fault='')
+            outcome = reported_outcome_t(code=reported_long, fault='')
          else
-            call outcome_of_row(drawn(i), rule, told(i), outcome)
+            call outcome_of_row(drawn(i), rule, reported(i), outcome)
          end if
          !$omp critical (count_summaries)
          call note(drawn(i), merge(4, 3, verified), law, 'row', outcome)
@@ -140,8 +140,8 @@ contains
    subroutine run_values(number)
       integer(int64), intent(in) :: number
       type(drawn_scene_t) :: drawn(sweep_values)
-      type(told_t) :: told
-      type(told_outcome_t) :: outcome
+      type(reported_t) :: reported
+      type(reported_outcome_t) :: outcome
       type(carried_state_t) :: state
       real(dp) :: times(3)
       logical :: too_long
@@ -161,11 +161,11 @@ contains
          ! A sweep hands on where a value ends.
          if (.not. too_long) too_long = any(steps_expected(drawn(i:i)) > longest)
          if (too_long) then
-            outcome = told_outcome_t(code=told_long, fault='')
+            outcome = reported_outcome_t(code=reported_long, fault='')
          else
-            call value_told(drawn(i)%scene, state, told)
+            call value_reported(drawn(i)%scene, state, reported)
             times(2) = wall_seconds()
-            call outcome_of_row(drawn(i), rule, told, outcome)
+            call outcome_of_row(drawn(i), rule, reported, outcome)
             times(3) = wall_seconds()
          end if
          !$omp critical (count_summaries)
@@ -182,12 +182,12 @@ contains
       integer, intent(in) :: place
       integer, intent(in) :: law
       character(*), intent(in) :: kind_of_scene
-      type(told_outcome_t), intent(in) :: outcome
+      type(reported_outcome_t), intent(in) :: outcome
 
       counts(outcome%code, law, place) = counts(outcome%code, law, place) + 1_int64
-      if (.not. (outcome%code == told_silent .or. listed(outcome%code))) return
+      if (.not. (outcome%code == reported_silent .or. listed(outcome%code))) return
       call print_namelist(unit, drawn, kind_of_scene//' '//integer_text(drawn%number)//', seed '//integer_text(seed)//', '// &
-                          trim(law_names(law))//': '//trim(told_names(outcome%code))//' '//outcome%fault)
+                          trim(law_names(law))//': '//trim(reported_names(outcome%code))//' '//outcome%fault)
       flush (unit)
    end subroutine note
 
@@ -195,8 +195,8 @@ contains
    subroutine print_table()
       integer :: place, law, i
 
-      print '(100a)', '| scenes | film |', (' '//trim(told_names(i))//' |', i=1, told_outcomes)
-      print '(100a)', '|---|---|', ('---:|', i=1, told_outcomes)
+      print '(100a)', '| scenes | film |', (' '//trim(reported_names(i))//' |', i=1, reported_outcomes)
+      print '(100a)', '|---|---|', ('---:|', i=1, reported_outcomes)
       do place = 1, size(kinds_of_scenes)
          if (.not. any(counts(:, :, place) > 0_int64)) cycle
          do law = 1, laws
@@ -214,7 +214,7 @@ contains
       integer(int64), intent(in) :: row(:)
       integer :: i
 
-      print '(100a)', '| '//scene_kind//' | '//film//' |', (' '//integer_text(row(i))//' |', i=1, told_outcomes)
+      print '(100a)', '| '//scene_kind//' | '//film//' |', (' '//integer_text(row(i))//' |', i=1, reported_outcomes)
    end subroutine print_row
 
    !> Command line.
@@ -243,8 +243,8 @@ contains
          case ('--failures')
             failures = value
          case ('--list')
-            listed = listed .or. told_names == value
-            if (.not. any(told_names == value)) failure = 1
+            listed = listed .or. reported_names == value
+            if (.not. any(reported_names == value)) failure = 1
          case default
             failure = 1
          end select

@@ -2,7 +2,7 @@
 !>
 !> A verified summary is a silent failure if its class is none that the true motion can have, if an extreme of film or
 !> acceleration or one of the first harmonics is farther off than the error that it states, if the motion that it
-!> calls steady is not the one that repeats, or if a motion repeats after fewer periods than told. What the reference may be off
+!> calls steady is not the one that repeats, or if a motion repeats after fewer periods than reported. What the reference may be off
 !> itself, found by solving it with another tolerance, is allowed for. Where a disturbance of film and force by 1e-9 grows so far
 !> that no verification could foresee the film (30 times the growth times the accuracy of a verification, 1e-10, beyond 1 %),
 !> nothing can be asked for but that a motion called irregular is irregular, or was so before and has settled by chance. The same
@@ -25,15 +25,15 @@ module summary_outcomes
    use problem, only: problem_t
    use random_scenes, only: drawn_scene_t
    use text, only: integer_text, short_text
-   use told_summary, only: told_t
+   use reported_summary, only: reported_t
    implicit none(type, external)
    private
 
-   integer, parameter, public :: told_right = 1, told_irregular = 2, told_sensitive = 3, told_uncertain = 4, &
-                                 told_understated = 5, told_status = 6, told_unjudged = 7, told_long = 8, &
-                                 told_silent = 9
-   integer, parameter, public :: told_outcomes = 9
-   character(*), parameter, public :: told_names(told_outcomes) = [character(20) :: 'right', 'irregular', 'sensitive', &
+   integer, parameter, public :: reported_right = 1, reported_irregular = 2, reported_sensitive = 3, reported_uncertain = 4, &
+                                 reported_understated = 5, reported_status = 6, reported_unjudged = 7, reported_long = 8, &
+                                 reported_silent = 9
+   integer, parameter, public :: reported_outcomes = 9
+   character(*), parameter, public :: reported_names(reported_outcomes) = [character(20) :: 'right', 'irregular', 'sensitive', &
       'uncertain', 'error understated', 'status', 'unjudged', 'too long', 'SILENT FAILURE']
 
    !> Quantities that are compared, and their names.
@@ -51,11 +51,11 @@ module summary_outcomes
    real(dp), parameter :: same_state = 1.0e-6_dp, nearby = 0.05_dp
 
    !> What became of a scene.
-   type, public :: told_outcome_t
+   type, public :: reported_outcome_t
       integer :: code = 0
       !> What is wrong
       character(:), allocatable :: fault
-   end type told_outcome_t
+   end type reported_outcome_t
 
    !> What a row of a campaign may be off in films, over its accuracy, and in accelerations, over the largest [-].
    real(dp), parameter :: row_ratio = 30.0_dp, row_error = 0.01_dp, row_unforeseeable = 0.1_dp
@@ -66,75 +66,75 @@ module summary_outcomes
 
 contains
 
-   !> Judge what was told of a scene.
-   subroutine outcome_of_summary(drawn, rule, told, outcome)
+   !> Judge what was reported of a scene.
+   subroutine outcome_of_summary(drawn, rule, reported, outcome)
       !> The scene
       type(drawn_scene_t), intent(in) :: drawn
       type(lobatto_rule_t), intent(in) :: rule
       !> What its summary says
-      type(told_t), intent(in) :: told
-      type(told_outcome_t), intent(out) :: outcome
+      type(reported_t), intent(in) :: reported
+      type(reported_outcome_t), intent(out) :: outcome
       type(impact_reference_t) :: reference, tight, disturbed
       real(dp) :: own_errors(quantities), grown
       character(:), allocatable :: fault
 
-      outcome%fault = trim(told%status)
-      outcome%code = told_status
-      if (.not. told%judged) return
-      outcome%code = merge(told_right, told_uncertain, told%verified)
-      outcome%fault = trim(told%reason)
-      call reference_of(drawn, rule, told, usual, 0.0_dp, verified_margin, reference)
+      outcome%fault = trim(reported%status)
+      outcome%code = reported_status
+      if (.not. reported%judged) return
+      outcome%code = merge(reported_right, reported_uncertain, reported%verified)
+      outcome%fault = trim(reported%reason)
+      call reference_of(drawn, rule, reported, usual, 0.0_dp, verified_margin, reference)
       if (.not. reference%solved) then
-         if (told%verified) outcome%code = told_unjudged
+         if (reported%verified) outcome%code = reported_unjudged
          return
       end if
-      if (told%verified .and. told%class == 'irregular') then
-         outcome%code = told_irregular
-         if (class_is_possible(told, reference)) return
-         if (settles_by_chance(drawn, rule, told)) then
-            outcome%code = told_sensitive
+      if (reported%verified .and. reported%class == 'irregular') then
+         outcome%code = reported_irregular
+         if (class_is_possible(reported, reference)) return
+         if (settles_by_chance(drawn, rule, reported)) then
+            outcome%code = reported_sensitive
          else
-            call fail(class_fault(told, reference))
+            call fail(class_fault(reported, reference))
          end if
          return
       end if
       own_errors = usual_error*abs(values_of(reference)) + noise(drawn)
-      fault = fault_of(told, reference, own_errors, told%verified)
+      fault = fault_of(reported, reference, own_errors, reported%verified)
       if (len(fault) > 0) then
-         call reference_of(drawn, rule, told, second, 0.0_dp, verified_margin, tight)
+         call reference_of(drawn, rule, reported, second, 0.0_dp, verified_margin, tight)
          if (.not. tight%solved) then
-            if (told%verified) outcome%code = told_unjudged
+            if (reported%verified) outcome%code = reported_unjudged
             return
          end if
          own_errors = second_error*abs(values_of(tight)) + noise(drawn) + 3.0_dp*abs(values_of(tight) - values_of(reference))
-         fault = fault_of(told, tight, own_errors, told%verified)
+         fault = fault_of(reported, tight, own_errors, reported%verified)
       end if
       if (len(fault) > 0) then
-         call reference_of(drawn, rule, told, second, disturbance, verified_margin, disturbed)
+         call reference_of(drawn, rule, reported, second, disturbance, verified_margin, disturbed)
          grown = huge(1.0_dp)
          if (disturbed%solved) grown = maxval(abs(log(disturbed%extremes(:2)/tight%extremes(:2))))/disturbance
          if (grown > foreseeable_growth .or. .not. is_known(tight, reference)) then
-            if (told%verified) outcome%code = told_sensitive
+            if (reported%verified) outcome%code = reported_sensitive
             return
          end if
-         if (told%verified) then
+         if (reported%verified) then
             call fail(fault//', growth '//short_text(grown, 3))
          else
-            outcome%code = told_understated
-            outcome%fault = fault//'; '//trim(told%reason)
+            outcome%code = reported_understated
+            outcome%fault = fault//'; '//trim(reported%reason)
          end if
          return
       end if
-      if (told%orbit > 0 .and. told%verified) then
-         fault = fault_of_orbit(drawn, rule, told, reference, own_errors)
+      if (reported%orbit > 0 .and. reported%verified) then
+         fault = fault_of_orbit(drawn, rule, reported, reference, own_errors)
          if (fault == '?') then
-            outcome%code = told_unjudged
+            outcome%code = reported_unjudged
          else if (len(fault) > 0) then
             call fail(fault)
          end if
       end if
-      if (outcome%code == told_right .and. told%repeats > 1) then
-         fault = fault_of_period(drawn, rule, told, reference)
+      if (outcome%code == reported_right .and. reported%repeats > 1) then
+         fault = fault_of_period(drawn, rule, reported, reference)
          if (len(fault) > 0) call fail(fault)
       end if
 
@@ -144,7 +144,7 @@ contains
       subroutine fail(what)
          character(*), intent(in) :: what
 
-         outcome%code = told_silent
+         outcome%code = reported_silent
          outcome%fault = what
       end subroutine fail
 
@@ -152,21 +152,21 @@ contains
 
    !> Whether a motion that is not irregular any more was so before, and settled at a time that no solution foresees: a disturbance
    !> has grown a million times by some time before its window.
-   logical function settles_by_chance(drawn, rule, told) result(by_chance)
+   logical function settles_by_chance(drawn, rule, reported) result(by_chance)
       type(drawn_scene_t), intent(in) :: drawn
       type(lobatto_rule_t), intent(in) :: rule
-      type(told_t), intent(in) :: told
+      type(reported_t), intent(in) :: reported
       real(dp), parameter :: grown = 1.0e6_dp*disturbance
       integer, parameter :: parts = 8
       type(impact_reference_t) :: before, disturbed
-      type(told_t) :: earlier
+      type(reported_t) :: earlier
       integer :: part
 
       by_chance = .false.
-      earlier = told
+      earlier = reported
       earlier%window = 1
       do part = 1, parts
-         earlier%periods = 1 + ((told%periods - told%window)*part)/parts
+         earlier%periods = 1 + ((reported%periods - reported%window)*part)/parts
          call reference_of(drawn, rule, earlier, usual, 0.0_dp, verified_margin, before)
          call reference_of(drawn, rule, earlier, usual, disturbance, verified_margin, disturbed)
          if (.not. (before%solved .and. disturbed%solved)) return
@@ -176,28 +176,29 @@ contains
    end function settles_by_chance
 
    !> Judge a row of a campaign.
-   subroutine outcome_of_row(drawn, rule, told, outcome)
+   subroutine outcome_of_row(drawn, rule, reported, outcome)
       !> The scene of the row
       type(drawn_scene_t), intent(in) :: drawn
       type(lobatto_rule_t), intent(in) :: rule
       !> What the row says
-      type(told_t), intent(in) :: told
-      type(told_outcome_t), intent(out) :: outcome
+      type(reported_t), intent(in) :: reported
+      type(reported_outcome_t), intent(out) :: outcome
       type(impact_reference_t) :: reference, tight, disturbed
-      type(told_t) :: row
+      type(reported_t) :: row
       real(dp) :: allowed(quantities), grown
       character(:), allocatable :: fault
 
-      outcome%fault = trim(told%status)
-      outcome%code = told_status
-      if (.not. told%judged) return
+      outcome%fault = trim(reported%status)
+      outcome%code = reported_status
+      if (.not. reported%judged) return
       outcome%fault = ''
-      outcome%code = told_unjudged
-      call row_reference(drawn, rule, told, usual, 0.0_dp, reference)
+      outcome%code = reported_unjudged
+      call row_reference(drawn, rule, reported, usual, 0.0_dp, reference)
       if (.not. reference%solved) return
-      outcome%code = merge(told_irregular, told_right, index(told%class, 'irregular') == 1 .and. class_is_possible(told, reference))
-      if (outcome%code == told_irregular) return
-      row = told
+      outcome%code = merge(reported_irregular, reported_right, index(reported%class, 'irregular') == 1 &
+                           .and. class_is_possible(reported, reference))
+      if (outcome%code == reported_irregular) return
+      row = reported
       allowed = noise(drawn) + drawn%resolved%noise_floor
       allowed(:2) = row_ratio*drawn%scene%solver%accuracy*reference%extremes(:2)
       allowed(3:4) = allowed(3:4) + row_error*maxval(abs(reference%extremes(3:4)))
@@ -206,34 +207,34 @@ contains
       row%extreme_errors = allowed(:6)
       row%harmonic_errors = allowed(7:)
       ! The lines of a window that holds a part of a longer orbit depend on which part.
-      if (told%class == 'subharmonic' .and. (told%orbit == 0 .or. modulo(told%window, max(1, told%orbit)) /= 0)) &
+      if (reported%class == 'subharmonic' .and. (reported%orbit == 0 .or. modulo(reported%window, max(1, reported%orbit)) /= 0)) &
          row%harmonic_errors = huge(1.0_dp)
       fault = fault_of(row, reference, 0.0_dp*allowed, .true.)
       if (len(fault) == 0) return
       outcome%fault = fault
-      if (told%verification_asked .and. .not. told%verified) then
-         outcome%code = told_uncertain
+      if (reported%verification_asked .and. .not. reported%verified) then
+         outcome%code = reported_uncertain
          if (len(fault_of(row, reference, 0.0_dp*allowed, .false.)) == 0) return
       end if
-      call row_reference(drawn, rule, told, second, 0.0_dp, tight)
-      call row_reference(drawn, rule, told, usual, disturbance, disturbed)
+      call row_reference(drawn, rule, reported, second, 0.0_dp, tight)
+      call row_reference(drawn, rule, reported, usual, disturbance, disturbed)
       if (.not. tight%solved) return
       grown = huge(1.0_dp)
       if (disturbed%solved) grown = max(1.0_dp, maxval(abs(log(disturbed%extremes(:2)/reference%extremes(:2))))/disturbance)
-      outcome%code = told_sensitive
+      outcome%code = reported_sensitive
       if (row_ratio*drawn%scene%solver%accuracy*grown > row_unforeseeable .or. .not. is_known(tight, reference)) return
       row%extreme_errors(:2) = allowed(:2)*grown
       row%extreme_errors(5:) = allowed(5:6)*grown
       if (len(fault_of(row, reference, 0.0_dp*allowed, .true.)) == 0) return
-      outcome%code = merge(told_silent, told_uncertain, told%sampling_sufficient)
+      outcome%code = merge(reported_silent, reported_uncertain, reported%sampling_sufficient)
       outcome%fault = outcome%fault//', growth '//short_text(grown, 3)
    end subroutine outcome_of_row
 
    !> Solve the window of a row: of a steady motion its orbit, since a forecast may have saved the periods before it.
-   subroutine row_reference(drawn, rule, told, tolerance, offset, reference)
+   subroutine row_reference(drawn, rule, reported, tolerance, offset, reference)
       type(drawn_scene_t), intent(in) :: drawn
       type(lobatto_rule_t), intent(in) :: rule
-      type(told_t), intent(in) :: told
+      type(reported_t), intent(in) :: reported
       real(dp), intent(in) :: tolerance
       !> Relative disturbance of film and force
       real(dp), intent(in) :: offset
@@ -243,23 +244,23 @@ contains
       logical :: found
       real(dp) :: margin
 
-      margin = merge(verified_margin, row_margin, told%verified)
-      call reference_of(drawn, rule, told, tolerance, offset, margin, reference)
-      if (told%orbit == 0 .or. .not. reference%solved) return
+      margin = merge(verified_margin, row_margin, reported%verified)
+      call reference_of(drawn, rule, reported, tolerance, offset, margin, reference)
+      if (reported%orbit == 0 .or. .not. reference%solved) return
       tooth = tooth_of_lane(drawn%resolved%problem)
       call disturb(offset, tooth)
       state = reference%start
-      call find_orbit(tooth, rule, tolerance, told%orbit, state, found)
+      call find_orbit(tooth, rule, tolerance, reported%orbit, state, found)
       reference%solved = .false.
-      if (found) call solve_reference(tooth, rule, tolerance, told%orbit, drawn%scene%spectrum, drawn%resolved%noise_floor, &
+      if (found) call solve_reference(tooth, rule, tolerance, reported%orbit, drawn%scene%spectrum, drawn%resolved%noise_floor, &
                                       margin, state, reference)
    end subroutine row_reference
 
    !> Solve the window of a summary.
-   subroutine reference_of(drawn, rule, told, tolerance, offset, margin, reference)
+   subroutine reference_of(drawn, rule, reported, tolerance, offset, margin, reference)
       type(drawn_scene_t), intent(in) :: drawn
       type(lobatto_rule_t), intent(in) :: rule
-      type(told_t), intent(in) :: told
+      type(reported_t), intent(in) :: reported
       real(dp), intent(in) :: tolerance
       !> Relative disturbance of film and force
       real(dp), intent(in) :: offset
@@ -282,8 +283,8 @@ contains
          call keep_by_contacts(problem, drawn%before%kept, start%numbers)
       end if
       state = start_of_tooth(drawn%resolved%problem, start, offset)
-      call solve_periods(tooth, rule, tolerance, told%periods - told%window, state, solved)
-      if (solved) call solve_reference(tooth, rule, tolerance, told%window, drawn%scene%spectrum, drawn%resolved%noise_floor, &
+      call solve_periods(tooth, rule, tolerance, reported%periods - reported%window, state, solved)
+      if (solved) call solve_reference(tooth, rule, tolerance, reported%window, drawn%scene%spectrum, drawn%resolved%noise_floor, &
                                        margin, state, reference)
    end subroutine reference_of
 
@@ -315,34 +316,34 @@ contains
       values = [reference%extremes, reference%harmonics]
    end function values_of
 
-   !> Whether the class told is one that the true motion may have.
-   pure logical function class_is_possible(told, reference)
-      type(told_t), intent(in) :: told
+   !> Whether the class reported is one that the true motion may have.
+   pure logical function class_is_possible(reported, reference)
+      type(reported_t), intent(in) :: reported
       type(impact_reference_t), intent(in) :: reference
-      character(len(told%class)) :: word
+      character(len(reported%class)) :: word
 
-      word = told%class
+      word = reported%class
       ! What is off its harmonics and repeats has a name of its own.
       if (word == 'subharmonic' .or. word == 'irregular_so_far') word = 'irregular'
       class_is_possible = any(possible_classes == word .and. reference%possible)
    end function class_is_possible
 
    !> A wrong class in words.
-   pure function class_fault(told, reference) result(fault)
-      type(told_t), intent(in) :: told
+   pure function class_fault(reported, reference) result(fault)
+      type(reported_t), intent(in) :: reported
       type(impact_reference_t), intent(in) :: reference
       character(:), allocatable :: fault
       integer :: i
 
-      fault = 'class '//trim(told%class)//', truly'
+      fault = 'class '//trim(reported%class)//', truly'
       do i = 1, size(possible_classes)
          if (reference%possible(i)) fault = fault//' '//trim(possible_classes(i))
       end do
    end function class_fault
 
    !> First thing that is wrong, empty if nothing is.
-   pure function fault_of(told, reference, own_errors, with_class) result(fault)
-      type(told_t), intent(in) :: told
+   pure function fault_of(reported, reference, own_errors, with_class) result(fault)
+      type(reported_t), intent(in) :: reported
       type(impact_reference_t), intent(in) :: reference
       !> Of the reference
       real(dp), intent(in) :: own_errors(quantities)
@@ -353,11 +354,11 @@ contains
       integer :: i
 
       fault = ''
-      if (with_class .and. .not. class_is_possible(told, reference)) fault = class_fault(told, reference)//'; '
-      values = [told%extremes, told%harmonics]
-      stated = [told%extreme_errors, told%harmonic_errors]
+      if (with_class .and. .not. class_is_possible(reported, reference)) fault = class_fault(reported, reference)//'; '
+      values = [reported%extremes, reported%harmonics]
+      stated = [reported%extreme_errors, reported%harmonic_errors]
       true_values = values_of(reference)
-      do i = 1, 6 + told%harmonic_count
+      do i = 1, 6 + reported%harmonic_count
          if (abs(values(i) - true_values(i)) <= stated(i) + own_errors(i)) cycle
          if (i <= 6) then
             fault = fault//trim(extreme_names(i))
@@ -370,11 +371,11 @@ contains
       end do
    end function fault_of
 
-   !> Whether the motion that repeats is another than the one told; '?' if it is not known.
-   function fault_of_orbit(drawn, rule, told, reference, own_errors) result(fault)
+   !> Whether the motion that repeats is another than the one reported; '?' if it is not known.
+   function fault_of_orbit(drawn, rule, reported, reference, own_errors) result(fault)
       type(drawn_scene_t), intent(in) :: drawn
       type(lobatto_rule_t), intent(in) :: rule
-      type(told_t), intent(in) :: told
+      type(reported_t), intent(in) :: reported
       type(impact_reference_t), intent(in) :: reference
       real(dp), intent(in) :: own_errors(quantities)
       character(:), allocatable :: fault
@@ -387,25 +388,25 @@ contains
       fault = '?'
       tooth = tooth_of_lane(drawn%resolved%problem)
       state = reference%start
-      call find_orbit(tooth, rule, usual, told%orbit, state, found)
+      call find_orbit(tooth, rule, usual, reported%orbit, state, found)
       if (.not. found) return
-      call solve_reference(tooth, rule, usual, told%orbit, drawn%scene%spectrum, drawn%resolved%noise_floor, &
+      call solve_reference(tooth, rule, usual, reported%orbit, drawn%scene%spectrum, drawn%resolved%noise_floor, &
                            verified_margin, state, orbit)
       if (.not. orbit%solved) return
       fault = ''
-      away = abs(log(told%extremes(:2)/orbit%extremes(:2)))
-      allowed = steady_ratio*drawn%scene%solver%accuracy + (told%extreme_errors(:2) + own_errors(:2))/told%extremes(:2)
+      away = abs(log(reported%extremes(:2)/orbit%extremes(:2)))
+      allowed = steady_ratio*drawn%scene%solver%accuracy + (reported%extreme_errors(:2) + own_errors(:2))/reported%extremes(:2)
       if (any(away > allowed)) &
-         fault = 'steady too early: films '//short_text(told%extremes(1), 9)//' to '//short_text(told%extremes(2), 9)// &
+         fault = 'steady too early: films '//short_text(reported%extremes(1), 9)//' to '//short_text(reported%extremes(2), 9)// &
                  ', in the end '//short_text(orbit%extremes(1), 9)//' to '//short_text(orbit%extremes(2), 9)//', '// &
                  short_text(maxval(away)/drawn%scene%solver%accuracy, 3)//' times the accuracy'
    end function fault_of_orbit
 
-   !> Whether the motion repeats after fewer periods than told; empty also where the reference finds no such motion.
-   function fault_of_period(drawn, rule, told, reference) result(fault)
+   !> Whether the motion repeats after fewer periods than reported; empty also where the reference finds no such motion.
+   function fault_of_period(drawn, rule, reported, reference) result(fault)
       type(drawn_scene_t), intent(in) :: drawn
       type(lobatto_rule_t), intent(in) :: rule
-      type(told_t), intent(in) :: told
+      type(reported_t), intent(in) :: reported
       type(impact_reference_t), intent(in) :: reference
       character(:), allocatable :: fault
       type(tooth_t) :: tooth
@@ -416,18 +417,18 @@ contains
       fault = ''
       tooth = tooth_of_lane(drawn%resolved%problem)
       ended = reference%start
-      call solve_periods(tooth, rule, usual, told%window, ended, solved)
+      call solve_periods(tooth, rule, usual, reported%window, ended, solved)
       if (.not. solved) return
       state = ended
-      call find_orbit(tooth, rule, usual, told%repeats, state, solved)
+      call find_orbit(tooth, rule, usual, reported%repeats, state, solved)
       ! There may be another motion that repeats, farther away.
       if (.not. solved .or. distance(tooth, state, ended) > nearby) return
       later = state
-      do periods = 1, told%repeats - 1
+      do periods = 1, reported%repeats - 1
          call solve_periods(tooth, rule, usual, 1, later, solved)
          if (.not. solved) return
          if (distance(tooth, state, later) > same_state) cycle
-         fault = 'repeats after '//integer_text(periods)//' periods, not '//integer_text(told%repeats)
+         fault = 'repeats after '//integer_text(periods)//' periods, not '//integer_text(reported%repeats)
          return
       end do
    end function fault_of_period

@@ -107,14 +107,16 @@ def change(tree: Tree) -> None:
 
 def look(folder: Path, scratch: Path) -> None:
     """The steady film is that of (23), and elastic teeth take the law as well."""
-    told = scene.read_summary(folder / "law.summary.nml")
-    if told["law"] != "parallel-plates" or told["rattle_class"] not in ("quiet", "creep", "idle"):
-        raise ToyError(f"its summary tells {told['law']}, {told['rattle_class']}")
+    reported = scene.read_summary(folder / "law.summary.nml")
+    if reported["law"] != "parallel-plates" or reported["rattle_class"] not in ("quiet", "creep", "idle"):
+        raise ToyError(f"its summary tells {reported['law']}, {reported['rattle_class']}")
     steady = scene.ROLLING / (scene.STEADY_FORCE + scene.MASS * scene.GRAVITY)
-    if not isclose(told["steady_film"], steady, rel_tol=1e-9):
-        raise ToyError(f"its steady film is {told['steady_film']}, not {steady}")
+    if not isclose(reported["steady_film"], steady, rel_tol=1e-9):
+        raise ToyError(f"its steady film is {reported['steady_film']}, not {steady}")
     stiff = ["--set", "contact.stiffness=1e12", "--set", "scene.name=stiff", "law.nml"]
     subprocess.run([scratch / "build/rattle", "--quiet", "--output", ".", *stiff], cwd=folder, check=True)
     elastic = scene.read_summary(folder / "stiff.summary.nml")
-    if not isclose(elastic["film_minimum"], told["film_minimum"], rel_tol=1e-3):
-        raise ToyError(f"its film is {told['film_minimum']}, between stiff teeth {elastic['film_minimum']}")
+    if not isclose(elastic["film_minimum"], reported["film_minimum"], rel_tol=1e-3):
+        raise ToyError(
+            f"its film is {reported['film_minimum']}, between stiff teeth {elastic['film_minimum']}"
+        )

@@ -39,15 +39,17 @@ def change(tree: Tree) -> None:
 
 def look(folder: Path, scratch: Path) -> None:
     """The film at rest carries the static load, elastic teeth take the law, Newmark's method does not."""
-    told = scene.read_summary(folder / "law_with_state.summary.nml")
+    reported = scene.read_summary(folder / "law_with_state.summary.nml")
     steady = REACH - (scene.STEADY_FORCE + scene.MASS * scene.GRAVITY) / STIFFNESS
-    if not isclose(told["steady_film"], steady, rel_tol=1e-9):
-        raise ToyError(f"its steady film is {told['steady_film']}, not {steady}")
+    if not isclose(reported["steady_film"], steady, rel_tol=1e-9):
+        raise ToyError(f"its steady film is {reported['steady_film']}, not {steady}")
     stiff = ["--set", "contact.stiffness=1e12", "--set", "scene.name=stiff_chain", "law_with_state.nml"]
     subprocess.run([scratch / "build/rattle", "--quiet", "--output", ".", *stiff], cwd=folder, check=True)
     elastic = scene.read_summary(folder / "stiff_chain.summary.nml")
-    if not isclose(elastic["film_minimum"], told["film_minimum"], rel_tol=1e-3):
-        raise ToyError(f"its film is {told['film_minimum']}, between stiff teeth {elastic['film_minimum']}")
+    if not isclose(elastic["film_minimum"], reported["film_minimum"], rel_tol=1e-3):
+        raise ToyError(
+            f"its film is {reported['film_minimum']}, between stiff teeth {elastic['film_minimum']}"
+        )
     refused = ["--set", "solver.method=newmark", "--set", "scene.name=refused", "law_with_state.nml"]
     ended = subprocess.run(
         [scratch / "build/rattle", *refused], cwd=folder, capture_output=True, text=True, check=False

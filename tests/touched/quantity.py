@@ -27,7 +27,7 @@ def change(tree: Tree) -> None:
 
 
 def look(folder: Path, scratch: Path) -> None:
-    told = scene.read_summary(folder / "quantity.summary.nml")
-    swing = told["acceleration_maximum"] - told["acceleration_minimum"]
-    if not isclose(told["acceleration_swing"], swing, rel_tol=1e-9):
-        raise ToyError(f"the summary tells {told['acceleration_swing']}, not {swing}")
+    reported = scene.read_summary(folder / "quantity.summary.nml")
+    swing = reported["acceleration_maximum"] - reported["acceleration_minimum"]
+    if not isclose(reported["acceleration_swing"], swing, rel_tol=1e-9):
+        raise ToyError(f"the summary tells {reported['acceleration_swing']}, not {swing}")

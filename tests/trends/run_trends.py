@@ -87,9 +87,9 @@ def classes_and_verdicts() -> list[str]:
             "campaign.record": ("rattle_class", "verdict"),
         }
         found = rattle.run(MAP, set=changes).result
-        told = np.array(found["rattle_class"]), np.array(found["verdict"])
+        reported = np.array(found["rattle_class"]), np.array(found["verdict"])
         for code, word in CLASSES.items():
-            counts = [np.sum((told[0] == code) & (told[1] == verdict)) for verdict in verdicts]
+            counts = [np.sum((reported[0] == code) & (reported[1] == verdict)) for verdict in verdicts]
             if sum(counts) > 0:
                 shares = " | ".join(f"{count / sum(counts):.1%}" for count in counts)
                 rows.append(f"| {law} | {spoken(word)} | {sum(counts)} | {shares} |")

@@ -15,8 +15,8 @@ module canonical_scenes
 
    !> Watcher that only counts.
    type, extends(motion_watcher_t), public :: counting_watcher_t
-      !> Periods it was told of, and what it was told last
-      integer :: told = 0, done = 0, all = 0
+      !> Periods it was reported of, and what it was reported last
+      integer :: reported = 0, done = 0, all = 0
    contains
       procedure :: period_done
    end type counting_watcher_t
@@ -121,7 +121,7 @@ contains
       type(sample_recorder_t), intent(out) :: recorder
       !> How it ended
       type(ending_t), intent(out) :: ending
-      !> Told of progress
+      !> Reported of progress
       type(counting_watcher_t), intent(inout), optional :: watcher
 
       type(counting_watcher_t) :: unwatched
@@ -143,7 +143,7 @@ contains
       integer, intent(in) :: done
       integer, intent(in) :: all
 
-      self%told = self%told + 1
+      self%reported = self%reported + 1
       self%done = done
       self%all = all
    end subroutine period_done

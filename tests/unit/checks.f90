@@ -1,4 +1,4 @@
-!> A tiny test driver: checks are counted, failures are told with their numbers, nothing stops.
+!> A tiny test driver: checks are counted, failures are reported with their numbers, nothing stops.
 module checks
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: dp, int64

@@ -160,7 +160,7 @@ contains
                         'keys that may differ, come or go')
    end subroutine test_difference
 
-   !> Files of another kind are neither resumed nor replaced; a place that is none is told.
+   !> Files of another kind are neither resumed nor replaced; a place that is none is reported.
    subroutine test_foreign_files(checks)
       type(check_list_t), intent(inout) :: checks
       type(campaign_file_t) :: file

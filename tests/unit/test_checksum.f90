@@ -99,7 +99,7 @@ contains
 
    end function defined
 
-   !> List, table and bytes of the same words agree; bytes are told from the zeros that fill them up.
+   !> List, table and bytes of the same words agree; bytes are reported from the zeros that fill them up.
    subroutine test_forms(checks)
       type(check_list_t), intent(inout) :: checks
       real(dp) :: table(3, 4), nothing(1)

@@ -108,7 +108,7 @@ contains
       call refuse(checks, lines('time,force', '3,1', '2,3', '1,2', '0,0'), '', ':3: the axis descends: after 3.0')
    end subroutine test_faults
 
-   !> Of a file that is no table of numbers nothing is told; one cause has one fault.
+   !> Of a file that is no table of numbers nothing is reported; one cause has one fault.
    subroutine test_foreign_files(checks)
       type(check_list_t), intent(inout) :: checks
       character(*), parameter :: tab = achar(9), decimal_comma = ': decimal commas are read only where semicolons'

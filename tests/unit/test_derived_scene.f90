@@ -1,5 +1,5 @@
-!> Tests of the scene that follows from a gear pair: what is told of it and in which unit, which values of a sweep are refused, and
-!> when the drag is said to be too large.
+!> Tests of the scene that follows from a gear pair: what is reported of it and in which unit, which values of a sweep are
+!> refused, and when the drag is said to be too large.
 module test_derived_scene
    use campaign_file_cases, only: line_feed
    use checks, only: check_list_t
@@ -36,7 +36,7 @@ contains
       call test_values_of_sweeps(checks)
       call test_drag_warning(checks)
       call test_force(checks)
-      call test_told_units(checks)
+      call test_reported_units(checks)
       call test_temperatures(checks)
       call test_highest_order(checks)
    end subroutine run_derived_scene_tests
@@ -121,18 +121,18 @@ contains
          !> Empty: no warning of the drag
          character(*), intent(in) :: words
          type(scene_t) :: scene
-         logical :: told, right
+         logical :: reported, right
          integer :: i
 
          call read_well(checks, gear//', drag_torque = '//torque//' /'//line_feed//shaft//oil//film// &
                         '&load force_scale = '//scale//' /', scene)
-         told = .false.
+         reported = .false.
          right = .false.
          do i = 1, size(scene%warnings)
-            told = told .or. index(scene%warnings(i)%text, 'the drag of') > 0
+            reported = reported .or. index(scene%warnings(i)%text, 'the drag of') > 0
             if (len(words) > 0) right = right .or. index(scene%warnings(i)%text, words) > 0
          end do
-         call checks%check(told .eqv. len(words) > 0, 'drag of '//torque//' N m, force times '//scale//': warned or not')
+         call checks%check(reported .eqv. len(words) > 0, 'drag of '//torque//' N m, force times '//scale//': warned or not')
          call checks%check(right .or. len(words) == 0, 'drag of '//torque//' N m, force times '//scale//': '//words)
       end subroutine expect
 
@@ -164,7 +164,7 @@ contains
    end subroutine test_force
 
    !> What follows stands in the resolved input with the unit that its key has.
-   subroutine test_told_units(checks)
+   subroutine test_reported_units(checks)
       class(check_list_t), intent(inout) :: checks
       !> Those that are no keys, as their units
       character(*), parameter :: others(7) = [character(40) :: 'gear.base_radius_1 m', 'gear.base_radius_2 m', &
@@ -202,22 +202,22 @@ contains
          end if
          call checks%check(unit == expected, 'unit of '//line)
       end do
-      call checks%check(known == 21, 'all that follows is told')
-      call told('load.steady_force', scene%excitation%steady_force)
-      call told('load.mass', scene%excitation%mass)
-      call told('load.frequency', scene%excitation%frequency)
-      call told('load.gravity', scene%excitation%gravity)
-      call told('contact.radius', scene%contact%radius)
-      call told('contact.length', scene%contact%length)
-      call told('contact.backlash', scene%contact%backlash)
-      call told('kinematics.entrainment_speed', scene%kinematics%entrainment_speed)
-      call told('lubricant.viscosity', scene%lubricant%viscosity)
-      call told('lubricant.pressure_viscosity', scene%lubricant%pressure_viscosity)
+      call checks%check(known == 21, 'all that follows is reported')
+      call reported('load.steady_force', scene%excitation%steady_force)
+      call reported('load.mass', scene%excitation%mass)
+      call reported('load.frequency', scene%excitation%frequency)
+      call reported('load.gravity', scene%excitation%gravity)
+      call reported('contact.radius', scene%contact%radius)
+      call reported('contact.length', scene%contact%length)
+      call reported('contact.backlash', scene%contact%backlash)
+      call reported('kinematics.entrainment_speed', scene%kinematics%entrainment_speed)
+      call reported('lubricant.viscosity', scene%lubricant%viscosity)
+      call reported('lubricant.pressure_viscosity', scene%lubricant%pressure_viscosity)
 
    contains
 
-      !> A number of the scene is the one told.
-      subroutine told(key, number)
+      !> A number of the scene is the one reported.
+      subroutine reported(key, number)
          character(*), intent(in) :: key
          real(dp), intent(in) :: number
          real(dp) :: read_back
@@ -225,11 +225,11 @@ contains
 
          place = index(scene%resolved_input, head//key//' = ') + len(head//key//' = ')
          read (scene%resolved_input(place:), *, iostat=status) read_back
-         call checks%check(status == 0, 'a number is told of '//key)
-         if (status == 0) call checks%check_close(read_back, number, 1.0e-9_dp*abs(number), 'told: '//key)
-      end subroutine told
+         call checks%check(status == 0, 'a number is reported of '//key)
+         if (status == 0) call checks%check_close(read_back, number, 1.0e-9_dp*abs(number), 'reported: '//key)
+      end subroutine reported
 
-   end subroutine test_told_units
+   end subroutine test_reported_units
 
    !> The data of an oil are held against the coldest and the hottest of all scenes.
    subroutine test_temperatures(checks)
@@ -253,14 +253,14 @@ contains
          character(*), intent(in) :: text
          integer, intent(in) :: count
          type(scene_t) :: scene
-         integer :: i, told
+         integer :: i, reported
 
          call read_well(checks, pair//text, scene)
-         told = 0
+         reported = 0
          do i = 1, size(scene%warnings)
-            if (index(scene%warnings(i)%text, 'extrapolated by 70 K') > 0) told = told + 1
+            if (index(scene%warnings(i)%text, 'extrapolated by 70 K') > 0) reported = reported + 1
          end do
-         call checks%check(told == count, 'viscosities extrapolated: '//text)
+         call checks%check(reported == count, 'viscosities extrapolated: '//text)
       end subroutine warn
 
    end subroutine test_temperatures

@@ -76,7 +76,7 @@ contains
          film = closure_steady_film(unit_closure(merge(viscosity_constant, viscosity_barus, table(2, i) <= 0.0_dp), table(2, i)), &
                                     table(1, i))
          write (name, '(a, f3.1, a, f4.1)') 'smallest steady film at M ', table(1, i), ', L ', table(2, i)
-         ! The errors are told to one or two digits.
+         ! The errors are reported to one or two digits.
          rounding = merge(0.006_dp, 0.0006_dp, table(4, i) > 0.015_dp)
          call checks%check_close(film/table(3, i) - 1.0_dp, table(4, i), rounding, trim(name))
       end do
@@ -348,9 +348,9 @@ contains
                               /film%closure%pressure_unit/0.225499_dp, 1.0_dp, 0.045_dp, 'largest pressure')
    end subroutine test_units
 
-   !> Twelfth period of scene G: the closure's own numbers to their last digit, which independent programs told, those of Roelands'
-   !> oil that of tests/reference (with tolerances of 1e-6 and 1e-7 alike); so the closure is as far from the films in nodes as it
-   !> is said to be.
+   !> Twelfth period of scene G: the closure's own numbers to their last digit, which independent programs reported, those of
+   !> Roelands' oil that of tests/reference (with tolerances of 1e-6 and 1e-7 alike); so the closure is as far from the films in
+   !> nodes as it is said to be.
    subroutine test_scene_g(checks)
       type(check_list_t), intent(inout) :: checks
       !> z'' max and min [m/s2], films [m], loads [N], in nodes and by the closure: iso-viscous, Roelands

@@ -35,7 +35,7 @@ contains
          3]), 'exit codes')
    end subroutine test_raise
 
-   !> Faults of two looks at one input: what both see is told once, what one look sees twice is told twice.
+   !> Faults of two looks at one input: what both see is reported once, what one look sees twice is reported twice.
    subroutine test_taking(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 

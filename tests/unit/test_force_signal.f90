@@ -137,7 +137,7 @@ contains
       call checks%check_close(sum(abs(signal%lines(4:))), 0.0_dp, 1.0e-12_dp, 'no other')
    end subroutine test_the_applied_force
 
-   !> Sums that cannot be told say why, and name the pairs.
+   !> Sums that cannot be reported say why, and name the pairs.
    subroutine test_unknown_sums(checks)
       class(check_list_t), intent(inout) :: checks
       type(force_signal_t) :: signals(3)

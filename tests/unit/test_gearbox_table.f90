@@ -196,7 +196,7 @@ contains
       character(*), intent(in) :: text
       character(*), intent(in) :: words
 
-      call checks%check(index(text, words) > 0, 'told: '//words)
+      call checks%check(index(text, words) > 0, 'reported: '//words)
    end subroutine expect
 
 end module test_gearbox_table

@@ -313,7 +313,7 @@ contains
       type(judgement_space_t), allocatable :: space
       type(sample_plan_t) :: plan
       real(dp), allocatable :: values(:, :), rows(:, :)
-      integer, parameter :: told(*) = [quantity_rattle_class, quantity_verified, quantity_film_minimum, &
+      integer, parameter :: reported(*) = [quantity_rattle_class, quantity_verified, quantity_film_minimum, &
                                        quantity_acceleration_maximum]
       integer :: i
 
@@ -322,17 +322,17 @@ contains
       scene%solver%periods = 200
       scene%solver%kept_per_period = 64
       scene%campaign%samples_per_period = 64
-      scene%campaign%record = told
+      scene%campaign%record = reported
       scene%resolved_input = ''
       call solve_in_memory(scene, judged, error)
       call checks%check(judged%judged .and. quantity_value(quantity_verified, judged) > 0.5_dp, 'scene: verified')
       allocate (values, source=reshape(scene%excitation%force_amplitude*[1.0_dp, 0.5_dp], [1, 2]))
       call plan_table([find_key('load.force_amplitude')], values, plan)
-      allocate (rows(3 + size(told), 2), space)
+      allocate (rows(3 + size(reported), 2), space)
       call solve_scenes(scene, plan, 1_int64, space, rows, error)
-      do i = 1, size(told)
-         call checks%check_close(rows(3 + i, 1)/quantity_value(told(i), judged), 1.0_dp, 1.0e-6_dp, &
-                                 'campaign: '//trim(quantity_table(told(i))%name))
+      do i = 1, size(reported)
+         call checks%check_close(rows(3 + i, 1)/quantity_value(reported(i), judged), 1.0_dp, 1.0e-6_dp, &
+                                 'campaign: '//trim(quantity_table(reported(i))%name))
       end do
       ! Half the force moves the film half as far from its rest.
       call checks%check_close((rows(6, 2) - film_at_rest(judged%resolved%problem, static_load(judged%resolved%problem))) &

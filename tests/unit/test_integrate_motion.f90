@@ -237,7 +237,7 @@ contains
       early(3) = films(steps)
    end function early_films
 
-   !> Time, steps and periods told; the equation of motion holds at every sample.
+   !> Time, steps and periods reported; the equation of motion holds at every sample.
    subroutine test_bookkeeping(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
@@ -255,8 +255,8 @@ contains
       call run_window(scene, recorder, ending, watcher)
       call checks%check(ending%status == status_complete, 'bookkeeping: status')
       call checks%check(ending%count%steps == 7*256, 'bookkeeping: steps')
-      call checks%check(watcher%told == 7 .and. watcher%done == 7 .and. watcher%all == 7, &
-         'bookkeeping: periods told')
+      call checks%check(watcher%reported == 7 .and. watcher%done == 7 .and. watcher%all == 7, &
+         'bookkeeping: periods reported')
       call checks%check_close(ending%time*600.0_dp, 7.0_dp, 8.0_dp*epsilon(1.0_dp), 'bookkeeping: time')
       call checks%check(size(recorder%states, 1) == 512, 'bookkeeping: size of the window')
       call checks%check_close(recorder%states(512, of_film, 1), ending%numbers(of_film), 0.0_dp, &

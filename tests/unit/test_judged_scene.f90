@@ -249,7 +249,7 @@ contains
 
    end subroutine test_numbers
 
-   !> Lists; impacts are told by the time since the motion began.
+   !> Lists; impacts are reported by the time since the motion began.
    subroutine test_lists(checks, judged)
       class(check_list_t), intent(inout) :: checks
       type(judged_scene_t), intent(in) :: judged

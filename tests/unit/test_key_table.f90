@@ -66,7 +66,7 @@ contains
          is_number = keys(i)%kind == real_kind .or. keys(i)%kind == integer_kind
          call find_varied_key(key_name(i), position, message)
          is_varied = position > 0
-         call checks%check(is_varied .eqv. len(message) == 0, trim(keys(i)%name)//': varied, or told why not')
+         call checks%check(is_varied .eqv. len(message) == 0, trim(keys(i)%name)//': varied, or reported why not')
          call checks%check(is_number .or. .not. is_varied, trim(keys(i)%name)//': varied, so a number')
          if (any(groups == keys(i)%group)) &
             call checks%check(is_varied .eqv. keys(i)%kind == real_kind, &

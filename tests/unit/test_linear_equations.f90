@@ -65,7 +65,7 @@ contains
       end do
       table(5, :) = 0.0_dp
       call eliminate(6, 7, table, solved)
-      call checks%check(.not. solved, 'a row of nothing is told')
+      call checks%check(.not. solved, 'a row of nothing is reported')
    end subroutine test_singular
 
 end module test_linear_equations

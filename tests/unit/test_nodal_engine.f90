@@ -177,7 +177,7 @@ contains
          508.18_dp, -251.54_dp, 37.472_dp, 0.1319e-6_dp, 0.2177e-6_dp, 326.80_dp, 161.06_dp, &
          515.88_dp, -255.81_dp, 37.826_dp, 0.2492e-6_dp, 0.2957e-6_dp, 331.57_dp, 163.71_dp, &
          514.03_dp, -255.15_dp, 37.717_dp, 0.2385e-6_dp, 0.2926e-6_dp, 330.41_dp, 163.30_dp], [7, 3])
-      !> Last digits of the references: errors of peaks and films are told to them
+      !> Last digits of the references: errors of peaks and films are reported to them
       real(dp), parameter :: last_digits(7) = [1.2e-4_dp, 2.4e-4_dp, 1.6e-4_dp, 7.6e-4_dp, 4.6e-4_dp, 1.5e-4_dp, 2.5e-4_dp]
       real(dp), parameter :: errors(7, 2) = reshape([2.0e-3_dp, 2.0e-3_dp, 2.0e-3_dp, 3.0e-3_dp, 3.0e-3_dp, 2.0e-3_dp, 2.0e-3_dp, &
                                                      1.0e-3_dp, 1.0e-3_dp, 1.0e-3_dp, 3.0e-3_dp, 3.0e-3_dp, 1.0e-3_dp, 1.0e-3_dp], &
@@ -267,7 +267,7 @@ contains
       scene%spectrum%periods = 1
       call solve(scene, keeper, ending, record, watcher)
       call checks%check(ending%status == status_steady .and. ending%orbit == 1 .and. ending%periods < 30, 'scene G repeats')
-      call checks%check(watcher%told == ending%periods .and. watcher%all == ending%periods, 'each period is told once')
+      call checks%check(watcher%reported == ending%periods .and. watcher%all == ending%periods, 'each period is reported once')
       scene%solver%until = until_periods
       scene%solver%periods = 30
       call solve(scene, longer, last, later, other)

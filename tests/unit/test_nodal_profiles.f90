@@ -65,7 +65,7 @@ contains
       call solve_in_nodes(problem, choice, request_of(scene), keeper, nobody, start, ending, record, error, profiles)
    end subroutine solve
 
-   !> A profile carries the load that is told of it, and obeys the shape of its contact.
+   !> A profile carries the load that is reported of it, and obeys the shape of its contact.
    subroutine check_profile(checks, problem, profiles, profile, name)
       type(check_list_t), intent(inout) :: checks
       type(problem_t), intent(in) :: problem
@@ -118,7 +118,7 @@ contains
       end do
    end subroutine test_largest_loads
 
-   !> At phases both flanks are told at the first end of a step from there on.
+   !> At phases both flanks are reported at the first end of a step from there on.
    subroutine test_phases(checks)
       type(check_list_t), intent(inout) :: checks
       real(dp), parameter :: phases(3) = [0.1_dp, 0.5_dp, 1.0_dp]

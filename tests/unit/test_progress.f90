@@ -1,4 +1,4 @@
-!> Tests of what is told while a run goes on.
+!> Tests of what is reported while a run goes on.
 module test_progress
    use checks, only: check_list_t
    use kinds, only: dp

@@ -78,7 +78,7 @@ contains
                         'verdict, impacts and class are verified each by its own flag')
    end subroutine test_words
 
-   !> Every quantity that a scene has is known; of rigid teeth no position of the gear is told, which the film is.
+   !> Every quantity that a scene has is known; of rigid teeth no position of the gear is reported, which the film is.
    subroutine test_every_value(single, checks)
       type(judged_scene_t), intent(in) :: single  !> A steady, verified scene
       type(check_list_t), intent(inout) :: checks  !> Collects the results
@@ -129,27 +129,27 @@ contains
       type(judged_scene_t), intent(in) :: swept   !> As a value of a sweep
       real(dp), intent(in) :: row(:)              !> As a row of a campaign, from its first quantity on
       type(check_list_t), intent(inout) :: checks  !> Collects the results
-      integer, allocatable :: told(:)
+      integer, allocatable :: reported(:)
       integer :: i, column
 
-      allocate (told, source=quantities_reported_in('sweep'))
-      do i = 1, size(told)
-         if (any(told(i) == [quantity_status, quantity_periods_solved])) cycle
-         call check_same(told(i), quantity_value(told(i), swept), 'in a sweep')
+      allocate (reported, source=quantities_reported_in('sweep'))
+      do i = 1, size(reported)
+         if (any(reported(i) == [quantity_status, quantity_periods_solved])) cycle
+         call check_same(reported(i), quantity_value(reported(i), swept), 'in a sweep')
       end do
-      deallocate (told)
-      allocate (told, source=quantities_reported_in('campaign'))
+      deallocate (reported)
+      allocate (reported, source=quantities_reported_in('campaign'))
       column = 0
-      do i = 1, size(told)
+      do i = 1, size(reported)
          column = column + 1
-         if (quantity_table(told(i))%kind == a_list) then
-            associate (list => quantity_list(told(i), single))
+         if (quantity_table(reported(i))%kind == a_list) then
+            associate (list => quantity_list(reported(i), single))
                call checks%check(maxval(abs(row(column:column + 7) - list(:8))) < 1.0e-5_dp*maxval(list), &
-                  trim(quantity_table(told(i))%name)//' in a campaign')
+                  trim(quantity_table(reported(i))%name)//' in a campaign')
             end associate
             column = column + 7
-         else if (.not. any(told(i) == [quantity_verified, quantity_periods_solved])) then
-            call check_same(told(i), row(column), 'in a campaign')
+         else if (.not. any(reported(i) == [quantity_verified, quantity_periods_solved])) then
+            call check_same(reported(i), row(column), 'in a campaign')
          end if
       end do
       call checks%check(column == size(row), 'columns of a row')

@@ -242,7 +242,7 @@ contains
       call reader%close()
    end function text_of
 
-   !> A file that cannot be made is an error of the system, told with its path.
+   !> A file that cannot be made is an error of the system, reported with its path.
    subroutine test_failure(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
@@ -254,7 +254,7 @@ contains
       if (.not. allocated(error)) return
       call checks%check(error%exit_code == exit_system, 'no folder: exit code')
       call checks%check(index(error%message, 'no_such_folder_here/x.rattle') == 1, &
-         'no folder: the path is told')
+         'no folder: the path is reported')
    end subroutine test_failure
 
 end module test_result_writer

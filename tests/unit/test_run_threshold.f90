@@ -1,5 +1,5 @@
-!> Tests of what is told of thresholds: every number of summary and log against an outcome of which each count is another number.
-!> The outcome is that of a state that is carried on with nothing left to solve.
+!> Tests of what is reported of thresholds: every number of summary and log against an outcome of which each count is another
+!> number. The outcome is that of a state that is carried on with nothing left to solve.
 module test_run_threshold
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use campaign_file_cases, only: content_of, line_feed
@@ -31,7 +31,7 @@ contains
 
       call checks%start('run_threshold')
       call test_grid(checks)
-      call test_told(checks)
+      call test_reported(checks)
    end subroutine run_run_threshold_tests
 
    !> A grid as fine has the values of the tolerance, the scan if that is finer, or all whole numbers.
@@ -50,7 +50,7 @@ contains
    end subroutine test_grid
 
    !> Log, summary and result of a run that is carried on where all traces are done but the last.
-   subroutine test_told(checks)
+   subroutine test_reported(checks)
       class(check_list_t), intent(inout) :: checks
       type(scene_t) :: scene
       type(prepared_threshold_t) :: threshold
@@ -60,7 +60,7 @@ contains
       type(error_t), allocatable :: error
       type(log_t) :: log
       type(result_reader_t) :: reader
-      character(:), allocatable :: told, summary
+      character(:), allocatable :: reported, summary
       character(32), parameter :: names(16) = [character(32) :: 'trace', 'kinematics.entrainment_speed', 'crossing', 'lower', &
                                                  'upper', 'width', 'rattle_class_below', 'rattle_class_above', 'status_below', &
                                                  'status_above', 'verified_below', 'verified_above', 'last_below', &
@@ -81,9 +81,9 @@ contains
       call checks%check(faults%count() == 0 .and. .not. allocated(error), 'carried on to its end')
       if (faults%count() > 0) print '(a)', faults%sentence(1)
       if (allocated(error)) print '(a)', error%message
-      call checks%check(exit_code == exit_scene_failed, 'scenes that failed are told by the exit code')
+      call checks%check(exit_code == exit_scene_failed, 'scenes that failed are reported by the exit code')
       call checks%check(.not. path_exists(state_path(scene)), 'a state that was carried on to its end is gone')
-      told = content_of(log_path(scene))
+      reported = content_of(log_path(scene))
       summary = content_of(summary_path(scene))
       call expect('carried on after '//integer_text(traces - 1_int64)//' traces of the earlier run and 5 values of those under way')
       call expect('5 values a trace, then halves down to 33 places;')
@@ -122,17 +122,17 @@ contains
       subroutine expect(words)
          character(*), intent(in) :: words
 
-         call checks%check(index(told, words) > 0, 'told in the log: '//words)
+         call checks%check(index(reported, words) > 0, 'reported in the log: '//words)
       end subroutine expect
 
       subroutine hold(key, value)
          character(*), intent(in) :: key
          character(*), intent(in) :: value
 
-         call checks%check(index(summary, '   '//key//' = '//value//line_feed) > 0, 'told in the summary: '//key//' = '//value)
+         call checks%check(index(summary, '   '//key//' = '//value//line_feed) > 0, 'reported in the summary: '//key//' = '//value)
       end subroutine hold
 
-   end subroutine test_told
+   end subroutine test_reported
 
    !> Take the files of the run away.
    subroutine clear(scene)

@@ -88,7 +88,7 @@ contains
          'unknown key')
       call expect('&loud mass=3.0 frequency=6 /', &
          'f:1: &loud: unknown group; the nearest known group is &load', &
-         'unknown group, told once')
+         'unknown group, reported once')
 
    contains
 

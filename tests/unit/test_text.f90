@@ -50,11 +50,11 @@ contains
       call spelt(checks, logical_text(.false.), '.false.')
    end subroutine test_real_text
 
-   !> Errors have two digits, are rounded up, and are not below the rounding of their number as it is told.
+   !> Errors have two digits, are rounded up, and are not below the rounding of their number as it is reported.
    subroutine test_errors_of_numbers(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       integer, parameter :: count_ = 2000
-      real(dp) :: number, error, told, number_told, rounding
+      real(dp) :: number, error, reported, number_reported, rounding
       character(:), allocatable :: text
       integer :: i, digits, stat, low, long, other
 
@@ -80,20 +80,20 @@ contains
          error = number*10.0_dp**(-18.0_dp + 19.0_dp*fraction_of(i, 0.75487766625_dp))
          digits = 3 + mod(i, 4)
          text = short_text(number, digits)
-         read (text, *, iostat=stat) number_told
+         read (text, *, iostat=stat) number_reported
          text = error_text(error, number, digits)
-         read (text, *, iostat=stat) told
-         rounding = abs(number_told - number)
-         if (told < max(error, rounding)*(1.0_dp - 1.0e-10_dp)) low = low + 1
-         if (short_text(told, 2) /= error_text(error, number, digits)) long = long + 1
-         if (told > 1.1_dp*max(error, 0.5_dp*10.0_dp**(-decimals(short_text(number, digits))))*(1.0_dp + 1.0e-9_dp)) &
+         read (text, *, iostat=stat) reported
+         rounding = abs(number_reported - number)
+         if (reported < max(error, rounding)*(1.0_dp - 1.0e-10_dp)) low = low + 1
+         if (short_text(reported, 2) /= error_text(error, number, digits)) long = long + 1
+         if (reported > 1.1_dp*max(error, 0.5_dp*10.0_dp**(-decimals(short_text(number, digits))))*(1.0_dp + 1.0e-9_dp)) &
             other = other + 1
-         ! What is told may be told again.
-         if (error_text(told, number, digits) /= error_text(error, number, digits)) other = other + 1
+         ! What is reported may be reported again.
+         if (error_text(reported, number, digits) /= error_text(error, number, digits)) other = other + 1
       end do
       call checks%check(low == 0, 'no error is below the bound or the rounding of its number')
       call checks%check(long == 0, 'no error has more than two digits')
-      call checks%check(other == 0, 'no error is told larger than bound and rounding ask for')
+      call checks%check(other == 0, 'no error is reported larger than bound and rounding ask for')
    end subroutine test_errors_of_numbers
 
    !> A number between 0 and 1, another one for each place.

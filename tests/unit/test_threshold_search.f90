@@ -229,7 +229,7 @@ contains
       call checks%check(all(brackets%upper%place - brackets%lower%place == 1), 'down to the next integer')
    end subroutine test_integers
 
-   !> Points of one trace with these sides, places of the scan every fourth; verified as told, 2: not put to the test.
+   !> Points of one trace with these sides, places of the scan every fourth; verified as reported, 2: not put to the test.
    function line_of(sides, verified, trace) result(points)
       integer, intent(in) :: sides(:)
       integer, intent(in) :: verified(:)

@@ -414,7 +414,7 @@ call checks%check(index(verification_sentence(verification), words) > 0, words//
       extremes%lowest(seen_films(2))%value = 1.0e-3_dp*minval(coast)
       call compare_both(coast*[1.0e-3_dp, 1.0_dp, 1.0_dp])
       call checks%check(verification%film_error*extremes%lowest(seen_films(2))%value > minval(coast), &
-                        'coast film: told far too thin, its error is a share of what is told')
+                        'coast film: reported far too thin, its error is a share of what is reported')
 
    contains
 

@@ -128,12 +128,12 @@ contains
       integer, parameter :: curves = 2000, pieces = 8, lines = 3, places = 200
       type(problem_t) :: scene
       type(extreme_t) :: lowest, highest
-      real(dp) :: drawn(3, lines), states(nodes_per_piece*pieces, 2), state(2), truth(2), told(2), value
+      real(dp) :: drawn(3, lines), states(nodes_per_piece*pieces, 2), state(2), truth(2), reported(2), value
       integer :: i, j, piece
 
       states(:, of_film) = 1.0_dp
       truth = 0.0_dp
-      told = 0.0_dp
+      reported = 0.0_dp
       do i = 1, curves
          ! Golden multiples are spread as evenly as random numbers, and the same on every machine.
          drawn = reshape([(modulo(0.61803398874989485_dp*real(9*i + j, dp)*real(j, dp), 1.0_dp), j=1, 3*lines)], [3, lines])
@@ -152,12 +152,12 @@ contains
                truth = [min(truth(1), state(of_velocity)), max(truth(2), state(of_velocity))]
             end do
          end do
-         told = [lowest%value, highest%value]
+         reported = [lowest%value, highest%value]
          value = 1.0e-9_dp*(truth(2) - truth(1))
-         if (told(1) > truth(1) + value .or. told(2) < truth(2) - value) exit
+         if (reported(1) > truth(1) + value .or. reported(2) < truth(2) - value) exit
       end do
-      call checks%check_close(told(1), min(told(1), truth(1)), 1.0e-8_dp, 'curves: the lowest place')
-      call checks%check_close(told(2), max(told(2), truth(2)), 1.0e-8_dp, 'curves: the highest place')
+      call checks%check_close(reported(1), min(reported(1), truth(1)), 1.0e-8_dp, 'curves: the lowest place')
+      call checks%check_close(reported(2), max(reported(2), truth(2)), 1.0e-8_dp, 'curves: the highest place')
 
    contains
 

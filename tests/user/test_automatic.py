@@ -1,4 +1,4 @@
-"""film.model = automatic: by the closure, in nodes where that does not do, and told which."""
+"""film.model = automatic: by the closure, in nodes where that does not do, and reported which."""
 
 from __future__ import annotations
 
@@ -51,17 +51,17 @@ def rows(run, tmp_path_factory) -> Path:
 def test_rows_are_single_scenes_of_the_model_they_tell(rows: Path) -> None:
     table = package.read(rows / "one/rows.rattle")
     models = ["", "closure", "resolved"]
-    told = [models[round(code)] for code in table["film_model"]]
-    assert set(told) == {"closure", "resolved"}
-    for place, (force, model) in enumerate(zip(FORCES, told, strict=True)):
+    reported = [models[round(code)] for code in table["film_model"]]
+    assert set(reported) == {"closure", "resolved"}
+    for place, (force, model) in enumerate(zip(FORCES, reported, strict=True)):
         settings = {"load.force_amplitude": force, "film.model": model}
         alone = package.run(GEAR, set=settings).summary
         for name in RECORD:
             if name not in alone:  # a single scene in nodes has no closure to be within its range
                 continue
             row = table[name][place]
-            told_row = word(name, row) if isinstance(alone[name], str) else row
-            assert told_row == alone[name], (force, model, name)
+            reported_row = word(name, row) if isinstance(alone[name], str) else row
+            assert reported_row == alone[name], (force, model, name)
         assert (table["verified"][place] == 1) == (alone["verification"] == "verified")
         # A single scene chooses as its row has.
         chosen = package.run(GEAR, set={"load.force_amplitude": force}).summary
@@ -142,8 +142,8 @@ def test_a_scene_says_why(rows: Path, run) -> None:
         folder = f"why_{force:g}"
         ended = run("--output", folder, "--set", f"load.force_amplitude={force}", "single.nml", cwd=rows)
         assert ended.returncode == 0, ended.stderr
-        told = summary_of(rows / folder / "single.summary.nml")
-        assert words in told["model_text"] and told["model_text"][:40] in ended.stdout
+        reported = summary_of(rows / folder / "single.summary.nml")
+        assert words in reported["model_text"] and reported["model_text"][:40] in ended.stdout
 
 
 @pytest.mark.parametrize(

@@ -59,7 +59,7 @@ def test_bad_arguments(arguments: list[str], expected: str, refused, scene_text,
     assert faults[0].startswith(expected)
 
 
-def test_fault_of_the_command_line_is_told_once(refused, scene_text, tmp_path: Path) -> None:
+def test_fault_of_the_command_line_is_reported_once(refused, scene_text, tmp_path: Path) -> None:
     for name in ("a.nml", "b.nml"):
         (tmp_path / name).write_text(scene_text())
     assert len(refused("a.nml", "b.nml", "--set", "load.mass=heavy")) == 1

@@ -159,9 +159,9 @@ def test_bad_value(
     if allowed is None:
         return  # parentheses are taken for an index; any plain refusal will do
     assert len(faults) == 1, faults
-    # New words may join the known ones; the bounds of a number are told to the letter.
-    told = faults[0].partition(" is not allowed; allowed: ")[2]
-    assert told.startswith(allowed) if allowed.startswith("one of") else told == allowed
+    # New words may join the known ones; the bounds of a number are reported to the letter.
+    reported = faults[0].partition(" is not allowed; allowed: ")[2]
+    assert reported.startswith(allowed) if allowed.startswith("one of") else reported == allowed
     assert value[:20] in faults[0]
 
 

@@ -34,7 +34,7 @@ def pair(tmp_path: Path) -> Path:
     return path
 
 
-def told(pair: Path, column: str, **keys: float) -> list[float]:
+def reported(pair: Path, column: str, **keys: float) -> list[float]:
     """What the program says at the points, each solved alone."""
     values = []
     for speed, temperature in POINTS:
@@ -66,7 +66,7 @@ def fitted(said: str, key: str = "gear.drag_scale") -> list[float]:
 @pytest.mark.long
 @pytest.mark.parametrize("column", ("drag_torque", "film_force_rms"))
 def test_a_scale_is_found_again(column: str, pair: Path, tmp_path: Path) -> None:
-    path = measure(pair, column, told(pair, column))
+    path = measure(pair, column, reported(pair, column))
     code, said, complained = called_here("calibrate.py", pair, path, "--output", "o.csv", cwd=tmp_path)
     assert code == 0, complained
     assert fitted(said)[0] == pytest.approx(SCALE, rel=1e-3)
@@ -81,7 +81,7 @@ def test_a_scale_is_found_again(column: str, pair: Path, tmp_path: Path) -> None
 def test_an_interval_holds_the_scale_behind_scattered_numbers(pair: Path, tmp_path: Path) -> None:
     """Torques off by some per cent up and down."""
     scatter = (1.05, 0.96, 1.02, 0.97, 1.03, 0.99, 0.98)
-    torques = told(pair, "drag_torque")
+    torques = reported(pair, "drag_torque")
     path = measure(pair, "drag_torque", [t * s for t, s in zip(torques, scatter, strict=True)])
     code, said, complained = called_here("calibrate.py", pair, path, cwd=tmp_path)
     assert code == 0, complained
@@ -91,7 +91,7 @@ def test_an_interval_holds_the_scale_behind_scattered_numbers(pair: Path, tmp_pa
 
 @pytest.mark.long
 def test_a_scale_between_rattling_points_and_others(pair: Path, tmp_path: Path) -> None:
-    verdicts = told(pair, "verdict")
+    verdicts = reported(pair, "verdict")
     rattles = [int("impacts" in verdict) for verdict in verdicts]
     assert 0 < sum(rattles) < len(rattles)
     path = measure(pair, "rattles", rattles)
@@ -104,7 +104,8 @@ def test_a_scale_between_rattling_points_and_others(pair: Path, tmp_path: Path) 
     for end, calm in ((low, 1.01), (high, 1.01)):
         states = {
             factor: [
-                "impacts" in verdict for verdict in told(pair, "verdict", **{"gear.drag_scale": end * factor})
+                "impacts" in verdict
+                for verdict in reported(pair, "verdict", **{"gear.drag_scale": end * factor})
             ]
             for factor in (1.0 / calm, calm)
         }
@@ -114,8 +115,8 @@ def test_a_scale_between_rattling_points_and_others(pair: Path, tmp_path: Path) 
 
 
 @pytest.mark.long
-def test_two_keys_are_told_apart(pair: Path, tmp_path: Path) -> None:
-    path = measure(pair, "film_force_rms", told(pair, "film_force_rms", **{"load.force_scale": 1.2}))
+def test_two_keys_are_distinct(pair: Path, tmp_path: Path) -> None:
+    path = measure(pair, "film_force_rms", reported(pair, "film_force_rms", **{"load.force_scale": 1.2}))
     second = ("--second", "load.force_scale", "--second-range", "0.5,2")
     code, said, complained = called_here("calibrate.py", pair, path, *second, cwd=tmp_path)
     assert code == 0, complained

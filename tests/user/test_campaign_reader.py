@@ -301,7 +301,7 @@ def test_a_time_series_is_no_campaign(tmp_path):
 
 
 def test_threads_name_the_first_damage(made, tmp_path, monkeypatch):
-    """Chunks are verified side by side; what is told is the damage that stands first."""
+    """Chunks are verified side by side; what is reported is the damage that stands first."""
     monkeypatch.setattr("rattle.result_file.FEWEST_CHUNKS", 1)
     monkeypatch.setattr("os.sched_getaffinity", lambda _: {0, 1, 2})
     content = made.content()

@@ -91,7 +91,7 @@ def test_a_job_script_hands_every_path_on_as_it_is(name, ranks, made, tmp_path):
     place = tmp_path / f"at {name}"
     program = place / name / "rattle"
     program.parent.mkdir(parents=True)
-    program.write_text('#!/bin/bash\nprintf "%s\\n" "$0" "$@" > "$TOLD"\n')
+    program.write_text('#!/bin/bash\nprintf "%s\\n" "$0" "$@" > "$REPORTED"\n')
     launcher = tmp_path / "bin" / "srun"
     launcher.parent.mkdir()
     launcher.write_text('#!/bin/bash\nshift\nexec "$@"\n')
@@ -103,11 +103,11 @@ def test_a_job_script_hands_every_path_on_as_it_is(name, ranks, made, tmp_path):
     done = call(place, "slurm", *division, "--program", program, f"--output=out {name}", "--", f"{name}.nml")
     assert done.returncode == 0, done.stderr
     script = place / done.stdout.removesuffix("\n")
-    told = tmp_path / "told"
+    reported = tmp_path / "reported"
     environment = {
         **os.environ,
         "PATH": f"{launcher.parent}:{os.environ['PATH']}",
-        "TOLD": str(told),
+        "REPORTED": str(reported),
         "SLURM_ARRAY_TASK_ID": "2",
     }
     ended = subprocess.run(
@@ -119,7 +119,7 @@ def test_a_job_script_hands_every_path_on_as_it_is(name, ranks, made, tmp_path):
         timeout=600.0,
     )
     assert ended.returncode == 0, ended.stderr
-    called = told.read_text().splitlines()
+    called = reported.read_text().splitlines()
     assert called[0] == str(program)
     assert called[called.index("--output") + 1] == f"out {name}"
     assert called[-1] in (f"{name}.nml", f"./{name}.nml") and not called[-1].startswith("-")

@@ -200,10 +200,10 @@ def test_a_window_of_one_of_two_periods_verifies_nothing(run, scene_text, tmp_pa
     }
     (tmp_path / "single.nml").write_text(scene_text(**texts))
     assert run("single.nml", cwd=tmp_path).returncode == 0
-    told = summary_of(tmp_path / "results" / "single.summary.nml")
-    assert told["orbit_period"] == 2 and told["verification"] == "uncertain"
-    assert not told["verdict_verified"] and not told["impacts_verified"]  # nor all impacts
-    assert "Solved again, the window of one period begins with a film of" in told["verification_text"]
+    reported = summary_of(tmp_path / "results" / "single.summary.nml")
+    assert reported["orbit_period"] == 2 and reported["verification"] == "uncertain"
+    assert not reported["verdict_verified"] and not reported["impacts_verified"]  # nor all impacts
+    assert "Solved again, the window of one period begins with a film of" in reported["verification_text"]
     assert run("--overwrite", "--set", "spectrum.periods=8", "single.nml", cwd=tmp_path).returncode == 0
     longer = summary_of(tmp_path / "results" / "single.summary.nml")
     assert longer["rattle_class"] == "subharmonic" and longer["verification"] == "verified"
@@ -213,7 +213,9 @@ def test_a_window_of_one_of_two_periods_verifies_nothing(run, scene_text, tmp_pa
     whole = {"scene": {"task": "'campaign'"}, **texts, "campaign": campaign}
     (tmp_path / "scene.nml").write_text(scene_text(**whole))
     result = package.read(solve(run, tmp_path))
-    assert CLASSES[int(result["rattle_class"][0])] == told["rattle_class"] and result["verified"][0] == 0.0
+    assert (
+        CLASSES[int(result["rattle_class"][0])] == reported["rattle_class"] and result["verified"][0] == 0.0
+    )
 
 
 def test_log_and_summary_count_what_is_not_verified(run, scene_text, tmp_path: Path) -> None:
@@ -412,11 +414,11 @@ def test_check_of_a_campaign_tells_how_large_it_becomes(run, scene_text, tmp_pat
     """A last chunk that is not full counts, and a number has eight bytes."""
     scenes = {"sample": "'sobol'", "count": None, "size": "20201"}
     (tmp_path / "scene.nml").write_text(grid(scene_text, 2, 2, campaign=scenes))
-    told = run("--check", "scene.nml", cwd=tmp_path).stdout
+    reported = run("--check", "scene.nml", cwd=tmp_path).stdout
     small = package.read_campaign(solve(run, tmp_path, "--set", "campaign.size=3"))
-    assert "! scenes              20201 (0 invalid" in told
-    assert "! chunks              10101 of at most 2 scenes\n" in told
-    size = float(re.search(r"! result size +(\S+) MB\n", told)[1])
+    assert "! scenes              20201 (0 invalid" in reported
+    assert "! chunks              10101 of at most 2 scenes\n" in reported
+    size = float(re.search(r"! result size +(\S+) MB\n", reported)[1])
     assert size == pytest.approx(20201 * 8 * len(small.names) / 1e6, rel=5e-3)
 
 
@@ -448,8 +450,8 @@ def test_finished_scenes_are_not_solved_again(run, folder: Path) -> None:
     ended = run("--resume", "--output", "whole", "scene.nml", cwd=folder)
     assert ended.returncode == 0
     assert "900 of 900 scenes, 0 a second" in ended.stdout
-    told = f90nml.read(folder / "whole" / "scene.progress.nml")["summary"]
-    assert (told["scenes"], told["scenes_done"], told["scenes_failed"]) == (900, 900, 0)
+    reported = f90nml.read(folder / "whole" / "scene.progress.nml")["summary"]
+    assert (reported["scenes"], reported["scenes_done"], reported["scenes_failed"]) == (900, 900, 0)
 
 
 def test_damaged_chunk_is_solved_again(run, folder: Path) -> None:

@@ -86,7 +86,7 @@ def creeping(scene_text, method: str, periods: str, **keys: str) -> str:
 
 
 def carry_on(run, folder: Path, *options: str, output: str = "chained", code: int = 0) -> str:
-    """One more call with --resume; what it told."""
+    """One more call with --resume; what it reported."""
     ended = run("--resume", "--output", output, *options, "scene.nml", cwd=folder)
     assert ended.returncode == code, ended.stderr
     return ended.stdout
@@ -113,8 +113,8 @@ def test_one_long_run_equals_three_chained(method: str, model: str, run, scene_t
         folder.mkdir()
         (folder / "scene.nml").write_text(canonical(scene_text, law, model, **solver_of(method)))
         for periods in (17, 20, 60):
-            told = carry_on(run, folder, "--set", f"solver.periods={periods}")
-        assert "carried on from period 4" in told
+            reported = carry_on(run, folder, "--set", f"solver.periods={periods}")
+        assert "carried on from period 4" in reported
         assert run("--output", "long", "scene.nml", cwd=folder).returncode == 0
         same(folder)
 
@@ -153,8 +153,8 @@ def test_nothing_that_is_carried_over_is_lost(
     """What is carried over is not zero in the state, so that losing it would show."""
     (tmp_path / "scene.nml").write_text(canonical(scene_text, **solver_of(method)))
     for periods in (17, 20, 60):
-        told = carry_on(run, tmp_path, "--set", setting, "--set", f"solver.periods={periods}")
-    assert "carried on from period 4" in told
+        reported = carry_on(run, tmp_path, "--set", setting, "--set", f"solver.periods={periods}")
+    assert "carried on from period 4" in reported
     assert run("--output", "long", "--set", setting, "scene.nml", cwd=tmp_path).returncode == 0
     assert package.read(tmp_path / "long" / "scene.state")[carried][0] != 0.0
     same(tmp_path)
@@ -251,8 +251,8 @@ def test_steady_run_in_pieces_equals_one(method: str, film: str, run, scene_text
     (tmp_path / "scene.nml").write_text(settling(scene_text, film, method, **samples))
     for periods in (8, 12, 15):
         carry_on(run, tmp_path, "--set", f"solver.periods={periods}")
-    told = carry_on(run, tmp_path, "--set", "solver.time_limit=1e-9", code=1)
-    assert "carried on from period" in told
+    reported = carry_on(run, tmp_path, "--set", "solver.time_limit=1e-9", code=1)
+    assert "carried on from period" in reported
     assert summary(tmp_path / "chained")["status"] == "time_limit"
     assert "carried on from period" in carry_on(run, tmp_path)
     assert run("--output", "long", "scene.nml", cwd=tmp_path).returncode == 0
@@ -268,8 +268,8 @@ def test_steady_run_is_finished_for_good(method: str, run, scene_text, tmp_path:
     carry_on(run, tmp_path)
     first = summary(tmp_path / "chained")
     before = films(tmp_path / "chained")
-    told = carry_on(run, tmp_path, "--set", "solver.periods=5000")
-    assert "found steady by the earlier run" in told
+    reported = carry_on(run, tmp_path, "--set", "solver.periods=5000")
+    assert "found steady by the earlier run" in reported
     assert first["status"] == "steady"
     after = summary(tmp_path / "chained")
     # The series says how many periods were asked for.
@@ -294,8 +294,8 @@ def test_orbit_must_fit_into_the_longer_run(run, scene_text, tmp_path: Path) -> 
     ended = run(*shorter, cwd=tmp_path)
     assert ended.returncode == 2
     assert f"is at period {start}; the window of this run would begin before" in ended.stderr
-    told = carry_on(run, tmp_path, "--set", f"solver.periods={end}")
-    assert "found steady by the earlier run" in told
+    reported = carry_on(run, tmp_path, "--set", f"solver.periods={end}")
+    assert "found steady by the earlier run" in reported
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -305,20 +305,20 @@ def test_interrupted_search_goes_on(method: str, rattle: Path, run, scene_text, 
     (tmp_path / "scene.nml").write_text(creeping(scene_text, method, str(periods)))
     cut = terminated(rattle, tmp_path, after=0.05)
     assert cut["status"] == "interrupted" and 0 < cut["periods_solved"] < periods
-    told = carry_on(run, tmp_path, output="cut")
-    assert f"carried on from period {cut['periods_solved']}" in told
+    reported = carry_on(run, tmp_path, output="cut")
+    assert f"carried on from period {cut['periods_solved']}" in reported
     assert run("--output", "whole", "scene.nml", cwd=tmp_path).returncode == 0
     same(tmp_path, "scene.state", one="cut", other="whole")
 
 
 @pytest.mark.parametrize("method", METHODS)
 def test_steady_run_goes_on_beyond_its_orbit(method: str, run, scene_text, tmp_path: Path) -> None:
-    """With until = 'periods' the state of a steady run is a state like others; the decreasing is told."""
+    """With until = 'periods' the state of a steady run is a state like others; the decreasing is reported."""
     (tmp_path / "scene.nml").write_text(settling(scene_text, "reynolds-iso", method))
     carry_on(run, tmp_path)
     on = ["--set", "solver.until=periods"]
-    told = carry_on(run, tmp_path, *on)
-    assert "carried on from period" in told
+    reported = carry_on(run, tmp_path, *on)
+    assert "carried on from period" in reported
     assert run("--output", "long", *on, "scene.nml", cwd=tmp_path).returncode == 0
     same(tmp_path)
     before = digest(tmp_path / "chained" / "scene.state")
@@ -376,7 +376,7 @@ def assert_resume_is_refused(run, results: Path, *options: str, word: str) -> No
 
 @pytest.mark.parametrize("method", METHODS)
 def test_resume_refuses_the_state_of_an_earlier_version(method: str, run, scene_text, tmp_path: Path) -> None:
-    """A state that lacks what a run is carried on from is told from one that holds it."""
+    """A state that lacks what a run is carried on from is reported from one that holds it."""
     (tmp_path / "scene.nml").write_text(canonical(scene_text, **solver_of(method)))
     assert run("scene.nml", cwd=tmp_path).returncode == 0
     path = tmp_path / "results" / "scene.state"
@@ -384,8 +384,8 @@ def test_resume_refuses_the_state_of_an_earlier_version(method: str, run, scene_
     names = list(state.columns)[:7]
     assert names[0] == "periods" and names[-1] == "cuts"
     columns = [(name, state.units[name]) for name in names]
-    told = {"input_text": state.input_text, "program_version": state.program_version}
-    write_result(path, columns, [[state[name][0] for name in names]], **told)
+    reported = {"input_text": state.input_text, "program_version": state.program_version}
+    write_result(path, columns, [[state[name][0] for name in names]], **reported)
     before = {file.name: digest(file) for file in path.parent.iterdir()}
     ended = run("--resume", "--set", "solver.periods=90", "scene.nml", cwd=tmp_path)
     assert ended.returncode == 2
@@ -394,7 +394,7 @@ def test_resume_refuses_the_state_of_an_earlier_version(method: str, run, scene_
 
 
 def test_resume_needs_the_series_of_the_scene(run, scene_text, tmp_path: Path) -> None:
-    """A lost series, or one of another scene in its place, is told before anything is written."""
+    """A lost series, or one of another scene in its place, is reported before anything is written."""
     (tmp_path / "scene.nml").write_text(canonical(scene_text))
     assert run("scene.nml", cwd=tmp_path).returncode == 0
     assert run("--output", "other", "--set", "load.mass=4", "scene.nml", cwd=tmp_path).returncode == 0

@@ -171,8 +171,8 @@ def test_page_of_keys(run, repository: Path, tmp_path: Path) -> None:
             keys.append((group, key))
     assert len(keys) > 30
     page_of_keys, _, quantities = ended.stdout.partition("## Quantities")
-    told = read_page(page_of_keys)
-    assert sorted(told) == sorted(keys)
+    reported = read_page(page_of_keys)
+    assert sorted(reported) == sorted(keys)
     assert len(re.findall(r"^\| `\w+` \|", page_of_keys, flags=re.MULTILINE)) == len(keys)
     table = run("--quantities", cwd=tmp_path).stdout.splitlines()
     assert [row.split(",")[0] for row in table[1:]] == re.findall(
@@ -184,7 +184,7 @@ def test_page_of_keys(run, repository: Path, tmp_path: Path) -> None:
 
 def test_conditions_of_keys(run, tmp_path: Path) -> None:
     """The tasks that use a key stand above its table, what else it needs in a column."""
-    told = read_page(run("--keys", cwd=tmp_path).stdout)
+    reported = read_page(run("--keys", cwd=tmp_path).stdout)
     motions = ("motion", "sweep", "campaign", "threshold")
     for key, conditions in {
         ("contact", "length"): ((), "no `&gear`"),
@@ -200,7 +200,7 @@ def test_conditions_of_keys(run, tmp_path: Path) -> None:
         ("solver", "time_limit"): (("motion",), ""),
         ("output", "directory"): ((), ""),
     }.items():
-        assert (told[key].tasks, told[key].used_with) == conditions, key
+        assert (reported[key].tasks, reported[key].used_with) == conditions, key
 
 
 @pytest.mark.parametrize("scene", ["idle", "creep"])

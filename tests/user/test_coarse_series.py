@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from campaign_runs import BASE
 from outcomes import summary_of
+from reported import counted
 from script_calls import call_script
-from told import counted
 
 import rattle as package
 from rattle.figures import histories, spectra, style
@@ -75,18 +75,18 @@ SMALL = {"force_amplitude": "150"}
 
 def test_log_says_what_the_samples_miss(impact) -> None:
     """How many harmonics there are at least, and what the model cannot mean."""
-    _, summary, told = impact()
-    assert "at least 40 harmonics" in told and summary["harmonic_count_is_bound"]
+    _, summary, reported = impact()
+    assert "at least 40 harmonics" in reported and summary["harmonic_count_is_bound"]
     assert not summary["harmonic_distortion_is_bound"] and summary["sampling_sufficient"]
     assert summary["model_limit"] == "too_wide_and_narrow"
-    assert "beyond a tenth of the radius" in told and "below 1 nm" in told
+    assert "beyond a tenth of the radius" in reported and "below 1 nm" in reported
 
 
 def test_number_of_samples_that_is_named_does(impact) -> None:
     """With as many samples as the log names the series is fine, and the harmonics are the same."""
-    _, coarse, told = impact(load=SMALL, solver=IMPACT["solver"] | {"samples_per_period": "64"})
+    _, coarse, reported = impact(load=SMALL, solver=IMPACT["solver"] | {"samples_per_period": "64"})
     assert coarse["series_coarse"] and not coarse["harmonics_by_integrals"]
-    samples = int(told.split("solver.samples_per_period = ")[1].split(" ")[0])
+    samples = int(reported.split("solver.samples_per_period = ")[1].split(" ")[0])
     result, fine, _ = impact(
         load=SMALL, solver=IMPACT["solver"] | {"samples_per_period": str(samples)}, output={"overwrite": "t"}
     )
@@ -99,10 +99,10 @@ def test_number_of_samples_that_is_named_does(impact) -> None:
 def test_newmark_says_how_many_steps_would_do(impact) -> None:
     """Its steps are its samples: too few of them are no verification."""
     newmark = {"method": "'newmark'", "steps_per_period": "64", "tolerance": "1e-14", "periods": "40"}
-    result, summary, told = impact(load={}, solver=newmark)
+    result, summary, reported = impact(load={}, solver=newmark)
     assert result.coarse and summary["series_coarse"] and not summary["sampling_sufficient"]
     assert summary["verification"] == "uncertain"
-    assert "solver.steps_per_period" in told
+    assert "solver.steps_per_period" in reported
     assert summary["harmonic_count_is_bound"] and summary["harmonic_distortion_is_bound"]
     assert len(result.extremes["time"]) == 0
 
@@ -161,14 +161,14 @@ def test_harmonics_behind_those_of_the_summary_are_those_of_samples_that_give_th
     result, summary, _ = impact(load=SMALL, solver=IMPACT["solver"] | {"samples_per_period": "64"})
     ratio, amplitude = spectra.prolonged(summary, result)
     assert amplitude[1:].tolist() == summary["harmonics"]  # 64 samples resolve no more
-    fine, told, _ = impact(
+    fine, reported, _ = impact(
         load=SMALL, solver=IMPACT["solver"] | {"samples_per_period": "1024"}, output={"overwrite": "t"}
     )
-    ratio, amplitude = spectra.prolonged(told, fine)
+    ratio, amplitude = spectra.prolonged(reported, fine)
     _, by_samples = spectra.column_spectrum(fine, "acceleration", 1)
-    known = len(told["harmonics"]) + 1
+    known = len(reported["harmonics"]) + 1
     assert ratio.size == 1024 // 10 > known
-    assert amplitude[1:known].tolist() == told["harmonics"]
+    assert amplitude[1:known].tolist() == reported["harmonics"]
     assert amplitude[known:].tolist() == by_samples[known : ratio.size].tolist()
 
 
@@ -218,8 +218,8 @@ def test_figure_8_shows_the_impact_of_every_period(impact) -> None:
 def test_check_names_films_that_the_model_cannot_mean(run, scene_text, tmp_path: Path) -> None:
     """A start beyond a tenth of the radius is known before anything runs."""
     (tmp_path / "wide.nml").write_text(scene_text(film={"initial_film": "2e-3"}))
-    told = run("--check", "wide.nml", cwd=tmp_path)
-    assert told.returncode == 0 and "beyond a tenth of the radius" in told.stdout
+    reported = run("--check", "wide.nml", cwd=tmp_path)
+    assert reported.returncode == 0 and "beyond a tenth of the radius" in reported.stdout
     (tmp_path / "plain.nml").write_text(scene_text())
     assert "model_limit" not in run("--check", "plain.nml", cwd=tmp_path).stdout
 
@@ -236,23 +236,23 @@ def test_campaigns_and_sweeps_count_what_the_model_cannot_mean(run, scene_text, 
     changes = BASE | {"load": {"force_amplitude": "700"}}
     text = scene_text(**changes, campaign=campaign)
     (tmp_path / "map.nml").write_text(text)
-    told = run("map.nml", cwd=tmp_path)
-    assert told.returncode == 0, told.stdout + told.stderr
+    reported = run("map.nml", cwd=tmp_path)
+    assert reported.returncode == 0, reported.stdout + reported.stderr
     result = package.read(tmp_path / "results" / "map.rattle")
     beyond = int((result["model_limit"] > 0).sum())
     assert result["model_limit"][0] == 3 and beyond >= 1
     scenes = "1 scene" if beyond == 1 else f"{beyond} scenes"
-    assert f"warning: {scenes} beyond what the model can mean" in told.stdout
-    assert (result["sampling_sufficient"] == 1).all() and "not resolved" not in told.stdout
+    assert f"warning: {scenes} beyond what the model can mean" in reported.stdout
+    assert (result["sampling_sufficient"] == 1).all() and "not resolved" not in reported.stdout
     # The true class and first harmonic of the impact, by an independent solver.
     assert result["rattle_class"][0] == 3 and result["harmonic_1"][0] == pytest.approx(290.75366, rel=1e-6)
     sweep = {"key": "'frequency'", "first": "15", "last": "20", "count": "2"}
     solver = {"steps_per_period": None, "method": None, "periods": "100"}
     text = scene_text(scene={"task": "'sweep'"}, load={"force_amplitude": "700"}, solver=solver, sweep=sweep)
     (tmp_path / "sweep.nml").write_text(text)
-    told = run("sweep.nml", cwd=tmp_path)
-    assert told.returncode == 0, told.stdout + told.stderr
-    assert "motions beyond what the model can mean" in told.stdout
+    reported = run("sweep.nml", cwd=tmp_path)
+    assert reported.returncode == 0, reported.stdout + reported.stderr
+    assert "motions beyond what the model can mean" in reported.stdout
     swept = package.read(tmp_path / "results" / "sweep.rattle")
     assert swept["acceleration_maximum"][0] == pytest.approx(9.082065e10, rel=1e-6)
 
@@ -263,10 +263,10 @@ def test_a_film_that_grows_too_wide_and_never_too_thin_counts(run, scene_text, t
     solver = {"steps_per_period": None, "method": None, "periods": "100"}
     text = scene_text(scene={"task": "'sweep'"}, solver=solver, sweep=sweep, **changes)
     (tmp_path / "sweep.nml").write_text(text)
-    told = run("sweep.nml", cwd=tmp_path)
-    assert told.returncode == 0, told.stderr
+    reported = run("sweep.nml", cwd=tmp_path)
+    assert reported.returncode == 0, reported.stderr
     swept = package.read(tmp_path / "results" / "sweep.rattle")
     wide = swept["film_maximum"] > 0.1 * 0.0127
     assert (swept["film_minimum"] > 1e-9).all() and 0 < wide.sum() < wide.size
-    assert f"warning: {counted(int(wide.sum()), 'motion')} beyond what the model can mean" in told.stdout
+    assert f"warning: {counted(int(wide.sum()), 'motion')} beyond what the model can mean" in reported.stdout
     assert summary_of(tmp_path / "results" / "sweep.summary.nml")["motions_failed"] == 0

@@ -1,4 +1,4 @@
-"""All motions of one operating point: told, sealed, started again, and followed by an independent solver."""
+"""Motions of one operating point: reported, sealed, started again, followed by an independent solver."""
 
 from __future__ import annotations
 
@@ -45,21 +45,21 @@ def two_motions(run, repository: Path, tmp_path_factory: pytest.TempPathFactory)
     return folder
 
 
-def test_both_motions_are_told(two_motions: Path) -> None:
+def test_both_motions_are_reported(two_motions: Path) -> None:
     results = two_motions / "results"
-    told = summary_of(results / "two_motions.summary.nml")
-    assert (told["motions"], told["starts_solved"], told["unsettled_starts"]) == (2, 29, 0)
+    reported = summary_of(results / "two_motions.summary.nml")
+    assert (reported["motions"], reported["starts_solved"], reported["unsettled_starts"]) == (2, 29, 0)
     table = package.read(results / "two_motions.rattle").motions
     frame = table.frame()
     assert frame.rattle_class_word.tolist() == ["idle", "subharmonic"]
     assert frame.orbit_period.tolist() == [1, 2] and frame.starts.sum() == 29
     assert frame.from_own_start.tolist() == [1, 0]
     # The columns that there were are those of the motion from rest; table and summary agree.
-    assert told["rattle_class"] == told["quietest_class"] == "idle"
-    assert told["acceleration_rms"] == told["quietest_acceleration_rms"] == frame.acceleration_rms[0]
-    assert told["loudest_class"] == "subharmonic"
+    assert reported["rattle_class"] == reported["quietest_class"] == "idle"
+    assert reported["acceleration_rms"] == reported["quietest_acceleration_rms"] == frame.acceleration_rms[0]
+    assert reported["loudest_class"] == "subharmonic"
     for name in ("acceleration_rms", "film_force_rms", "film_minimum"):
-        assert told[f"loudest_{name}"] == frame[name][1]
+        assert reported[f"loudest_{name}"] == frame[name][1]
     assert frame.film_force_rms[1] > 1.2 * frame.film_force_rms[0]
     assert (frame.floquet_modulus < 1.0).all()
     log = (results / "two_motions.log").read_text()
@@ -70,7 +70,7 @@ def test_both_motions_are_told(two_motions: Path) -> None:
         log,
     )
     assert [int(starts) for starts in sentence.groups()] == frame.starts.tolist()
-    assert told["motions_text"].startswith(sentence[0])
+    assert reported["motions_text"].startswith(sentence[0])
 
 
 def test_a_motion_starts_again_by_its_film_and_velocity(run, repository: Path, two_motions: Path) -> None:
@@ -84,25 +84,25 @@ def test_a_motion_starts_again_by_its_film_and_velocity(run, repository: Path, t
             cwd=two_motions,
         )
         assert ended.returncode == 0, ended.stderr
-        told = summary_of(two_motions / "results" / "again.summary.nml")
-        assert told["rattle_class"] == row.rattle_class_word
-        assert told["orbit_period"] == row.orbit_period
+        reported = summary_of(two_motions / "results" / "again.summary.nml")
+        assert reported["rattle_class"] == row.rattle_class_word
+        assert reported["orbit_period"] == row.orbit_period
         for name in ("acceleration_rms", "film_force_rms", "film_minimum"):
-            assert told[name] == pytest.approx(getattr(row, name), rel=1e-5)
+            assert reported[name] == pytest.approx(getattr(row, name), rel=1e-5)
 
 
 @pytest.mark.long
 def test_an_independent_solver_stays_on_each_motion(two_motions: Path) -> None:
-    """scipy's Radau method on the equations of springs and Reynolds films, from the told state."""
-    told = summary_of(two_motions / "results" / "two_motions.summary.nml")
+    """scipy's Radau method on the equations of springs and Reynolds films, from the reported state."""
+    reported = summary_of(two_motions / "results" / "two_motions.summary.nml")
     frame = package.read(two_motions / "results" / "two_motions.motions.rattle").frame()
-    radius, mass, stiffness = (float(told[name]) for name in ("radius", "mass", "stiffness"))
-    speed = 2.0 * told["entrainment_speed"]
-    group = 12.0 * told["length"] * speed * told["viscosity"] * radius
+    radius, mass, stiffness = (float(reported[name]) for name in ("radius", "mass", "stiffness"))
+    speed = 2.0 * reported["entrainment_speed"]
+    group = 12.0 * reported["length"] * speed * reported["viscosity"] * radius
     orders, amplitudes, phases = (
-        np.array(told[f"force_{name}"]) for name in ("orders", "amplitudes", "phases")
+        np.array(reported[f"force_{name}"]) for name in ("orders", "amplitudes", "phases")
     )
-    turn = 2.0 * math.pi * told["frequency"]
+    turn = 2.0 * math.pi * reported["frequency"]
 
     def velocity(film, compression):
         """Velocity at which a film carries its spring, by the inverse of Phi(A)."""
@@ -117,22 +117,22 @@ def test_an_independent_solver_stays_on_each_motion(two_motions: Path) -> None:
     def rates(time, state):
         """Film, velocity of the gear and both compressions, all in micrometres."""
         film, gear, drive, coast = 1e-6 * state
-        other = told["backlash"] - film + drive + coast
+        other = reported["backlash"] - film + drive + coast
         squeeze = velocity(film, drive)
-        force = told["steady_force"] + np.sum(amplitudes * np.cos(orders * turn * time + phases))
+        force = reported["steady_force"] + np.sum(amplitudes * np.cos(orders * turn * time + phases))
         acceleration = (stiffness * (drive - coast) - force) / mass
         return 1e6 * np.array([squeeze, acceleration, squeeze - gear, velocity(other, coast) + gear])
 
     for row in frame.itertuples():
         start = 1e6 * np.array([row.film, row.velocity, row.drive_compression, row.coast_compression])
-        period = row.orbit_period / told["frequency"]
+        period = row.orbit_period / reported["frequency"]
         solution = solve_ivp(
             rates, (0.0, period), start, method="Radau", rtol=1e-7, atol=1e-11, dense_output=True
         )
         assert solution.success
         # Back where it began: within a thousandth of the gap, and of the characteristic velocity.
         swing = float(np.sum(amplitudes / (mass * orders * turn)))
-        assert abs(solution.y[0, -1] - start[0]) < 1e-3 * 1e6 * told["backlash"]
+        assert abs(solution.y[0, -1] - start[0]) < 1e-3 * 1e6 * reported["backlash"]
         assert abs(solution.y[1, -1] - start[1]) < 1e-3 * 1e6 * swing
         # The integral of the square of the acceleration over the steps of the solution.
         square = sum(
@@ -142,25 +142,29 @@ def test_an_independent_solver_stays_on_each_motion(two_motions: Path) -> None:
         assert math.sqrt(square / period) == pytest.approx(row.acceleration_rms, rel=1e-3)
 
 
-def test_one_motion_is_told_with_what_may_be_missed(run, scene_text, tmp_path: Path) -> None:
+def test_one_motion_is_reported_with_what_may_be_missed(run, scene_text, tmp_path: Path) -> None:
     """The share p with 1 - (1 - p)^n = 0.95 of the n starts that are drawn: all but the first three."""
     (tmp_path / "scene.nml").write_text(scene_text(**LOOSE))
     for starts in (29, 62):
         ended = run("--set", f"solver.starts={starts}", "--overwrite", "scene.nml", cwd=tmp_path)
         assert ended.returncode == 0, ended.stderr
-        told = summary_of(tmp_path / "results" / "scene.summary.nml")
-        assert (told["motions"], told["starts_solved"], told["unsettled_starts"]) == (1, starts, 0)
+        reported = summary_of(tmp_path / "results" / "scene.summary.nml")
+        assert (reported["motions"], reported["starts_solved"], reported["unsettled_starts"]) == (
+            1,
+            starts,
+            0,
+        )
         share = math.ceil(100.0 * (1.0 - 0.05 ** (1.0 / (starts - 3))))
         assert (
             f"one motion from {starts} starts: any other has less than {share} % of the sampled starts (95 %)"
             in ended.stdout
         )
-        assert told["loudest_acceleration_rms"] == told["acceleration_rms"]
+        assert reported["loudest_acceleration_rms"] == reported["acceleration_rms"]
 
 
 @pytest.mark.long
 def test_starts_end_early_on_a_known_irregular_motion(run, repository: Path, tmp_path: Path) -> None:
-    """After 32 periods if all are on it; a motion beside it that repeats is told nevertheless."""
+    """After 32 periods if all are on it; a motion beside it that repeats is reported nevertheless."""
     for speed, motions in ((1200.0, 1), (2400.0, 2)):
         ended = run(
             *("--set", f"shaft.speed_rpm={speed}", "--set", "oil.temperature_celsius=100.0"),
@@ -169,26 +173,27 @@ def test_starts_end_early_on_a_known_irregular_motion(run, repository: Path, tmp
             cwd=tmp_path,
         )
         assert ended.returncode == 0, ended.stderr
-        told = summary_of(tmp_path / "two_motions.summary.nml")
+        reported = summary_of(tmp_path / "two_motions.summary.nml")
         # Whether the exponent of a chaotic motion is above its error is a matter of the last digits; so is
         # whether the motion from rest at 2400 1/min comes to the one that repeats.
-        from_rest = told["rattle_class"].startswith("irregular")
-        assert (from_rest or motions == 2) and told["motions"] == motions
+        from_rest = reported["rattle_class"].startswith("irregular")
+        assert (from_rest or motions == 2) and reported["motions"] == motions
         # 28 starts of 32 periods, and 60 of the motion that they are held against; of 120 each they had 3360.
-        assert told["start_periods"] < 1100
+        assert reported["start_periods"] < 1100
         unsettled = 30 - motions - (not from_rest)
-        assert told["unsettled_starts"] == unsettled
+        assert reported["unsettled_starts"] == unsettled
         words = "of 29 starts the motion does not repeat, or not yet"
         if motions == 1:
-            assert told["motions_text"] == f"one motion from 29 starts; {words}"
+            assert reported["motions_text"] == f"one motion from 29 starts; {words}"
         else:
             assert (
-                "subharmonic" in told["motions_text"] and f"; of {unsettled} starts" in told["motions_text"]
+                "subharmonic" in reported["motions_text"]
+                and f"; of {unsettled} starts" in reported["motions_text"]
             )
 
 
 @pytest.mark.long
-def test_a_motion_of_six_periods_is_told_once(run, repository: Path, tmp_path: Path) -> None:
+def test_a_motion_of_six_periods_is_reported_once(run, repository: Path, tmp_path: Path) -> None:
     """Its window of four periods does not show that it repeats."""
     text = (repository / "input" / "gearbox_map.nml").read_text()
     first = text.index("&gear\n")
@@ -200,9 +205,9 @@ def test_a_motion_of_six_periods_is_told_once(run, repository: Path, tmp_path: P
     )
     ended = run("scene.nml", cwd=tmp_path, timeout=600.0)
     assert ended.returncode == 0, ended.stderr
-    told = summary_of(tmp_path / "results" / "scene.summary.nml")
-    assert (told["unsettled_starts"], told["rattle_class"]) == (0, "subharmonic")
-    assert (told["orbit_period"], told["orbit_stability"]) == (6, "stable")
+    reported = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert (reported["unsettled_starts"], reported["rattle_class"]) == (0, "subharmonic")
+    assert (reported["orbit_period"], reported["orbit_stability"]) == (6, "stable")
     frame = package.read(tmp_path / "results" / "scene.rattle").motions.frame()
     assert (frame.orbit_period == 6).tolist() == [True] + [False] * (len(frame) - 1)
     assert frame.starts[0] > 20
@@ -219,23 +224,23 @@ def solve_pair(run, repository: Path, folder: Path, place: int, *keys: str) -> t
     return ended.stdout, summary_of(folder / "results" / "scene.summary.nml")
 
 
-def test_a_loud_motion_that_settles_slowly_is_told(run, repository: Path, tmp_path: Path) -> None:
+def test_a_loud_motion_that_settles_slowly_is_reported(run, repository: Path, tmp_path: Path) -> None:
     """Soft teeth: two of 29 starts come to a motion of 139 m/s2, which they near by a little each period."""
     keys = ("shaft.speed_rpm=1524.344", "oil.temperature_celsius=59.50032", "solver.periods=200")
     keys += ("gear.tooth_stiffness=2.726063e7", "load.force_scale=1.382198")
-    _, told = solve_pair(run, repository, tmp_path, 3, *keys)
-    assert (told["motions"], told["unsettled_starts"]) == (2, 0)
+    _, reported = solve_pair(run, repository, tmp_path, 3, *keys)
+    assert (reported["motions"], reported["unsettled_starts"]) == (2, 0)
     # The reference of tests/stress has 139.1 m/s2.
-    assert told["loudest_acceleration_rms"] == pytest.approx(139.135, rel=1e-3)
+    assert reported["loudest_acceleration_rms"] == pytest.approx(139.135, rel=1e-3)
 
 
 @pytest.mark.long
-def test_a_motion_far_from_where_slow_starts_end_is_told(run, repository: Path, tmp_path: Path) -> None:
+def test_a_motion_far_from_where_slow_starts_end_is_reported(run, repository: Path, tmp_path: Path) -> None:
     """Soft teeth: slow starts end hundreds of films away from the motion of 45.6 m/s2 that they come to."""
     keys = ("shaft.speed_rpm=747.6303148188935", "oil.temperature_celsius=92.6035145285589")
     keys += ("gear.tooth_stiffness=1.05220197e7", "load.force_scale=0.79697788")
-    log, told = solve_pair(run, repository, tmp_path, 1, *keys)
-    assert (told["motions"], told["rattle_class"]) == (2, "irregular_so_far")
+    log, reported = solve_pair(run, repository, tmp_path, 1, *keys)
+    assert (reported["motions"], reported["rattle_class"]) == (2, "irregular_so_far")
     of_window = "The motion does not repeat within its window of 4 periods: other windows have other numbers"
     assert of_window in log
     keys += (
@@ -246,7 +251,7 @@ def test_a_motion_far_from_where_slow_starts_end_is_told(run, repository: Path, 
     )
     log, settled = solve_pair(run, repository, tmp_path, 1, *keys)
     assert settled["orbit_period"] == 1 and of_window not in log
-    assert told["loudest_acceleration_rms"] == pytest.approx(settled["acceleration_rms"], rel=1e-3)
+    assert reported["loudest_acceleration_rms"] == pytest.approx(settled["acceleration_rms"], rel=1e-3)
 
 
 @pytest.mark.long
@@ -254,8 +259,12 @@ def test_irregular_starts_count_to_no_motion_beside(run, repository: Path, tmp_p
     """Newton's method leads from some irregular starts to a stable motion of 12.2 m/s2; no start does."""
     keys = ("shaft.speed_rpm=3372", "oil.temperature_celsius=115", "gear.tooth_stiffness=1.38e7")
     keys += ("load.force_scale=0.63",)
-    _, told = solve_pair(run, repository, tmp_path, 0, *keys)
-    assert (told["motions"], told["unsettled_starts"], told["rattle_class"]) == (1, 29, "irregular")
+    _, reported = solve_pair(run, repository, tmp_path, 0, *keys)
+    assert (reported["motions"], reported["unsettled_starts"], reported["rattle_class"]) == (
+        1,
+        29,
+        "irregular",
+    )
     _, later = solve_pair(run, repository, tmp_path, 0, *keys, "solver.starts=1", "solver.periods=1500")
     # In 1500 periods it comes to that motion or stays irregular, by the last digits.
     assert later["periods_solved"] == 1500
@@ -268,10 +277,10 @@ def test_a_start_that_flies_off_is_not_verified(run, scene_text, tmp_path: Path)
     solver = {"method": "'taylor'", "steps_per_period": None, "periods": "40"}
     (tmp_path / "scene.nml").write_text(scene_text(film=start, solver=solver))
     assert run("scene.nml", cwd=tmp_path).returncode == 0
-    told = summary_of(tmp_path / "results" / "scene.summary.nml")
-    assert told["film_maximum"] > 1.0 and told["model_limit"] == "too_wide"
-    assert told["verification"] == "uncertain"
-    assert "beyond a tenth of the radius: the film law means nothing there." in told["verification_text"]
+    reported = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert reported["film_maximum"] > 1.0 and reported["model_limit"] == "too_wide"
+    assert reported["verification"] == "uncertain"
+    assert "beyond a tenth of the radius: the film law means nothing there." in reported["verification_text"]
     rows = {
         "vary": "'film.initial_velocity'",
         "values(:, 1)": "0.0, 100.0",

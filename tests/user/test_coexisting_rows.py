@@ -80,12 +80,12 @@ def test_rows_tell_the_motions_of_single_scenes(run, folder: Path) -> None:
     several = result["motions"] > 1.0
     assert several.any() and (result["starts_solved"] == 3.0).all() and not result["unsettled_starts"].any()
     for row in [*np.flatnonzero(several), 0, 20, 44]:
-        told = single_motions(result, row)
-        rms = sorted(one["acceleration_rms"] for one in told)
+        reported = single_motions(result, row)
+        rms = sorted(one["acceleration_rms"] for one in reported)
         # Motions of these scenes differ by more than a tenth, or are the same within the accuracy.
         kinds = 1 + sum(after > 1.1 * before for before, after in itertools.pairwise(rms))
         assert kinds == result["motions"][row], (row, rms)
-        loudest = max(told, key=lambda one: one["acceleration_rms"])
+        loudest = max(reported, key=lambda one: one["acceleration_rms"])
         for name in ("acceleration_rms", "film_force_rms", "film_minimum"):
             assert result[f"loudest_{name}"][row] == pytest.approx(loudest[name], rel=1e-4), (row, name)
         assert result["quietest_acceleration_rms"][row] == pytest.approx(rms[0], rel=1e-4)
@@ -96,7 +96,7 @@ def test_rows_tell_the_motions_of_single_scenes(run, folder: Path) -> None:
     one = result["motions"] == 1.0
     for name in ("acceleration_rms", "film_force_rms", "film_minimum", "verdict"):
         np.testing.assert_array_equal(result[f"loudest_{name}"][one], result[name][one])
-    # The verdicts of loudest motions are told by their own impacts, not by those of the motion from rest.
+    # The verdicts of loudest motions are reported by their own impacts, not by those of the motion from rest.
     assert (result["loudest_verdict"] != result["verdict"]).any()
 
 
@@ -167,8 +167,8 @@ def test_a_damped_contact_has_one_start(run, folder: Path) -> None:
     """A contact that is damped by more than half of the critical damping needs none but rest."""
     settings = ("contact.length=0.01", "kinematics.entrainment_speed=1.905", "load.steady_force=199.2")
     damped = [word for setting in settings for word in ("--set", setting)]
-    told = package.read(solve(run, folder, *FEW, *damped))
-    assert (told["motions"] == 1.0).all() and (told["starts_solved"] == 1.0).all()
+    reported = package.read(solve(run, folder, *FEW, *damped))
+    assert (reported["motions"] == 1.0).all() and (reported["starts_solved"] == 1.0).all()
 
 
 def test_a_scene_that_fails_has_no_motions(run, folder: Path) -> None:
@@ -195,7 +195,7 @@ def gearbox(repository: Path, tmp_path: Path) -> str:
     return (repository / "input" / "gearbox_map.nml").read_text()
 
 
-def told_alone(run, folder: Path, text: str, *keys: str) -> dict:
+def reported_alone(run, folder: Path, text: str, *keys: str) -> dict:
     """The summary of a scene of a campaign by itself."""
     alone = folder / "alone.nml"
     alone.write_text(text.replace("'campaign'", "'motion'"))
@@ -205,7 +205,7 @@ def told_alone(run, folder: Path, text: str, *keys: str) -> dict:
 
 
 @pytest.mark.long
-def test_a_motion_that_settles_slowly_is_told_once(run, gearbox: str, tmp_path: Path) -> None:
+def test_a_motion_that_settles_slowly_is_reported_once(run, gearbox: str, tmp_path: Path) -> None:
     """After 60 periods the motion from rest still creeps along, far from where others have settled."""
     text = one_pair(gearbox, 3)
     (tmp_path / "scene.nml").write_text(
@@ -215,14 +215,14 @@ def test_a_motion_that_settles_slowly_is_told_once(run, gearbox: str, tmp_path: 
     row = package.read(solve(run, tmp_path, "--set", "shaft.speed_rpm=1800.0"))
     assert row["orbit_period"][0] == 0.0
     assert (row["motions"][0], row["unsettled_starts"][0]) == (1.0, 0.0)
-    told = told_alone(
+    reported = reported_alone(
         run, tmp_path, text, "shaft.speed_rpm=1800.0", "oil.temperature_celsius=80.0", "solver.periods=200"
     )
-    assert told["motions"] == 1
-    assert row["loudest_acceleration_rms"][0] == pytest.approx(told["acceleration_rms"], rel=1e-4)
+    assert reported["motions"] == 1
+    assert row["loudest_acceleration_rms"][0] == pytest.approx(reported["acceleration_rms"], rel=1e-4)
 
 
-def test_the_louder_of_two_slow_motions_is_told(run, gearbox: str, tmp_path: Path) -> None:
+def test_the_louder_of_two_slow_motions_is_reported(run, gearbox: str, tmp_path: Path) -> None:
     """After 60 periods none of three starts has settled; two lead to a louder motion of three periods."""
     text = one_pair(gearbox, 2)
     (tmp_path / "scene.nml").write_text(
@@ -233,7 +233,7 @@ def test_the_louder_of_two_slow_motions_is_told(run, gearbox: str, tmp_path: Pat
     row = package.read(solve(run, tmp_path, *(word for key in keys for word in ("--set", key))))
     assert row["orbit_period"][0] == 0.0
     assert (row["motions"][0], row["unsettled_starts"][0]) == (2.0, 0.0)
-    told_alone(run, tmp_path, text, *keys, "oil.temperature_celsius=59.24", "solver.periods=200")
+    reported_alone(run, tmp_path, text, *keys, "oil.temperature_celsius=59.24", "solver.periods=200")
     motions = package.read(tmp_path / "results" / "alone.motions.rattle")
     loudest = int(np.argmax(motions["acceleration_rms"]))
     assert motions["orbit_period"][loudest] == 3.0
@@ -252,6 +252,6 @@ def test_a_row_tells_the_motion_that_rest_comes_to_late(run, gearbox: str, tmp_p
     row = package.read(solve(run, tmp_path, *(word for key in keys for word in ("--set", key))))
     assert (row["motions"][0], row["unsettled_starts"][0]) == (1.0, 0.0)
     late = ("oil.temperature_celsius=15.0", "solver.periods=2000", "solver.starts=1")
-    told = told_alone(run, tmp_path, text, *keys, *late)
-    assert told["orbit_period"] == 1
-    assert row["loudest_acceleration_rms"][0] == pytest.approx(told["acceleration_rms"], rel=1e-4)
+    reported = reported_alone(run, tmp_path, text, *keys, *late)
+    assert reported["orbit_period"] == 1
+    assert row["loudest_acceleration_rms"][0] == pytest.approx(reported["acceleration_rms"], rel=1e-4)

@@ -189,7 +189,9 @@ def test_a_campaign_knows_no_ratios_of_a_motion_at_rest(run, scene_text, tmp_pat
 
 
 @pytest.mark.parametrize(("force", "amplitude"), [("40.0", "400.0"), ("80.0", "200.0")])
-def test_a_failure_is_told_with_its_time_within_the_period(force, amplitude, run, scene_text, tmp_path: Path):
+def test_a_failure_is_reported_with_its_time_within_the_period(
+    force, amplitude, run, scene_text, tmp_path: Path
+):
     """The film ends in the first period, or in the second one; Newmark, step by step, sees it there, too."""
     times = []
     for method, steps in (("taylor", None), ("newmark", "4096")):

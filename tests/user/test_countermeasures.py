@@ -31,7 +31,7 @@ TWO = INPUT.replace("&gear\n", "&gear\n   name = 'large'\n") + INPUT[: INPUT.ind
 
 
 @pytest.fixture(scope="module")
-def told(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def reported(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A pair with what was found of it, and a list of variants."""
     folder = tmp_path_factory.mktemp("pair")
     (folder / "pair.nml").write_text(INPUT)
@@ -44,8 +44,8 @@ def told(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def pair(told: Path) -> PairStudy:
-    (found,) = table.read(told / "pair.countermeasures.csv")
+def pair(reported: Path) -> PairStudy:
+    (found,) = table.read(reported / "pair.countermeasures.csv")
     return found
 
 
@@ -63,37 +63,38 @@ def settings_of(key: str, value: float) -> dict:
     return {"shaft.accelerations": [value, 100.0]} if key.startswith("shaft") else {key: value}
 
 
-def test_every_change_that_is_confirmed_ends_what_it_says(told: Path, pair: PairStudy) -> None:
+def test_every_change_that_is_confirmed_ends_what_it_says(reported: Path, pair: PairStudy) -> None:
     """And gains what it says; a thirtieth of the range nearer to the present value it has not ended."""
     ends = [(m.lever, name, end) for m in pair.measures for name, end in m.ends.items() if end.confirmed]
     assert {lever.key for lever, *_ in ends} >= {KEYS[0], KEYS[2], KEYS[3]}
     assert {name for _, name, _ in ends} == set(TARGETS)
-    now = solved(told / "pair.nml", {})
+    now = solved(reported / "pair.nml", {})
     assert (now.verdict, now.force) == (pair.now.verdict, pair.now.force)
     for lever, name, end in ends:
-        after = solved(told / "pair.nml", settings_of(lever.key, end.value))
+        after = solved(reported / "pair.nml", settings_of(lever.key, end.value))
         assert after.verdict in TARGETS[name], (lever.key, name)
         assert end.answer.change_db(pair.now) == pytest.approx(20.0 * math.log10(after.force / now.force))
         nearer = lever.value_at(float(lever.place_of(end.value)) - math.copysign(0.03, end.share))
-        before = solved(told / "pair.nml", settings_of(lever.key, nearer))
+        before = solved(reported / "pair.nml", settings_of(lever.key, nearer))
         assert before.verdict not in TARGETS[name], (lever.key, name)
 
 
-def test_what_ends_nothing_within_its_range_ends_nothing(told: Path, pair: PairStudy) -> None:
+def test_what_ends_nothing_within_its_range_ends_nothing(reported: Path, pair: PairStudy) -> None:
     (oil,) = (measure for measure in pair.measures if measure.lever.key == KEYS[1])
     assert not oil.ends
     assert words.end_words(oil, "impacts") == "not within"
     for value in (29.0, 41.0, 82.0, 116.0):
         assert (
-            solved(told / "pair.nml", settings_of(KEYS[1], value)).verdict == VERDICTS["double-sided impacts"]
+            solved(reported / "pair.nml", settings_of(KEYS[1], value)).verdict
+            == VERDICTS["double-sided impacts"]
         )
 
 
-def test_effort_is_the_better_of_both_ways(told: Path, pair: PairStudy) -> None:
+def test_effort_is_the_better_of_both_ways(reported: Path, pair: PairStudy) -> None:
     for measure in pair.measures:
         lever = measure.lever
         both = [lever.now * 0.9] + ([lever.now * 1.1] if lever.last > lever.now else [])
-        forces = {value: solved(told / "pair.nml", settings_of(lever.key, value)).force for value in both}
+        forces = {value: solved(reported / "pair.nml", settings_of(lever.key, value)).force for value in both}
         value, answer = measure.effort
         assert value == pytest.approx(min(forces, key=forces.get))
         assert answer.force == pytest.approx(min(forces.values()), rel=1e-9)
@@ -104,17 +105,17 @@ def test_ranks_begin_with_what_ends_impacts_soonest(pair: PairStudy) -> None:
     assert [abs(share) for share in shares] == sorted(map(abs, shares)) and abs(shares[0]) <= 1.0
 
 
-def test_variants_are_solved_and_ranked_by_what_they_gain_for_their_cost(told: Path) -> None:
-    with (told / "pair.together.csv").open(newline="") as stream:
+def test_variants_are_solved_and_ranked_by_what_they_gain_for_their_cost(reported: Path) -> None:
+    with (reported / "pair.together.csv").open(newline="") as stream:
         rows = {row["change"]: row for row in csv.DictReader(stream)}
-    now = solved(told / "pair.nml", {})
+    now = solved(reported / "pair.nml", {})
     settings = {
         "half": {"gear.backlash": 4.5e-5},
         "cheap": {"gear.backlash": 8.1e-5},
         "cold": {"oil.temperature_celsius": 20.0},
     }
     for name, keys in settings.items():
-        after = solved(told / "pair.nml", keys)
+        after = solved(reported / "pair.nml", keys)
         assert float(rows[name]["change_db"]) == pytest.approx(20.0 * math.log10(after.force / now.force))
         assert int(rows[name]["verdict_pair"]) == after.verdict
     gains = [float(rows[name]["gain_db_per_cost"]) for name in list(rows)[:2]]
@@ -122,8 +123,8 @@ def test_variants_are_solved_and_ranked_by_what_they_gain_for_their_cost(told: P
     assert float(rows["half"]["gain_db_per_cost"]) == pytest.approx(-float(rows["half"]["change_db"]) / 4.0)
 
 
-def test_scenes_one_by_one_find_what_the_program_follows(told: Path, tmp_path: Path) -> None:
-    (scene,) = opened(told / "pair.nml", tmp_path).pairs
+def test_scenes_one_by_one_find_what_the_program_follows(reported: Path, tmp_path: Path) -> None:
+    (scene,) = opened(reported / "pair.nml", tmp_path).pairs
     (lever,) = (lever for lever in levers(scene.groups, {}) if lever.key == KEYS[0])
     by_program, one_by_one = _followed(scene, lever), _solved(scene, lever)
     assert len(by_program.changes) == len(one_by_one.changes) == 2
@@ -155,23 +156,23 @@ def test_windows_are_entered_from_the_present_value() -> None:
     assert ways([], 0.5) == []
 
 
-def test_report_shows_what_would_stop_it(told: Path, pair: PairStudy, tmp_path: Path) -> None:
-    package.run(told / "pair.nml", folder=tmp_path)
-    shutil.copy(told / "pair.countermeasures.csv", tmp_path)
+def test_report_shows_what_would_stop_it(reported: Path, pair: PairStudy, tmp_path: Path) -> None:
+    package.run(reported / "pair.nml", folder=tmp_path)
+    shutil.copy(reported / "pair.countermeasures.csv", tmp_path)
     text = report(tmp_path / "pair.rattle").read_text()
     assert "What would stop it" in text
     for sentence in words.sentences(pair):
         assert sentence in text
     hotter = {"oil.temperature_celsius": 60.0}
-    package.run(told / "pair.nml", folder=tmp_path, set=hotter, overwrite=True)
+    package.run(reported / "pair.nml", folder=tmp_path, set=hotter, overwrite=True)
     text = report(tmp_path / "pair.rattle").read_text()
     assert "of another run" in text and words.sentences(pair)[1] not in text
     (tmp_path / "pair.countermeasures.csv").write_text("gear,rank\npair,1\n")
     assert "no table that countermeasures.py wrote" in report(tmp_path / "pair.rattle").read_text()
 
 
-def test_figures_are_drawn(told: Path) -> None:
-    assert figure_stems(told) == ["countermeasures_pair"]
+def test_figures_are_drawn(reported: Path) -> None:
+    assert figure_stems(reported) == ["countermeasures_pair"]
 
 
 def test_a_gearbox_is_solved_again_with_what_is_advised(tmp_path: Path) -> None:

@@ -63,7 +63,7 @@ def test_rows_over_the_speed_have_the_accelerations_of_their_speed(run, cycle: P
 def test_amplitudes_of_the_speed_are_those_of_the_acceleration_over_the_circular_frequency(
     run, tmp_path: Path
 ) -> None:
-    """Two inputs of one motion, told by its accelerations and by its speeds."""
+    """Two inputs of one motion, reported by its accelerations and by its speeds."""
     speed = 800.0
     accelerations, orders, phases = np.array([600.0, 60.0]), np.array([2.0, 0.5]), np.array([0.3, -1.0])
     amplitudes = accelerations / (orders * speed * np.pi / 30.0)
@@ -73,7 +73,7 @@ def test_amplitudes_of_the_speed_are_those_of_the_acceleration_over_the_circular
 &oil viscosity_40_cst = 58.0, viscosity_100_cst = 9.6, temperature_celsius = 40.0 /
 &film law = 'iso-viscous', model = 'reynolds' /
 """
-    told = []
+    reported = []
     for name, values, shift in (
         ("accelerations", accelerations, 0.0),
         ("speed_amplitudes", amplitudes, 0.5 * np.pi),
@@ -85,7 +85,7 @@ def test_amplitudes_of_the_speed_are_those_of_the_acceleration_over_the_circular
         )
         ended = run("--check", "pair.nml", cwd=tmp_path)
         assert ended.returncode == 0, ended.stderr
-        told.append(
+        reported.append(
             {
                 key: [float(word) for word in line.split("=")[1].rsplit(" ", 1)[0].split(",")]
                 for line in ended.stdout.splitlines()
@@ -93,11 +93,11 @@ def test_amplitudes_of_the_speed_are_those_of_the_acceleration_over_the_circular
                 if line.startswith(f"! derived: load.{key}")
             }
         )
-    assert told[1]["force_amplitudes"] == pytest.approx(told[0]["force_amplitudes"], rel=1e-14)
-    assert told[1]["force_phases"] == pytest.approx(told[0]["force_phases"], rel=1e-14)
+    assert reported[1]["force_amplitudes"] == pytest.approx(reported[0]["force_amplitudes"], rel=1e-14)
+    assert reported[1]["force_phases"] == pytest.approx(reported[0]["force_phases"], rel=1e-14)
 
 
-def test_the_motion_of_a_shaft_is_told_once(run, cycle: Path) -> None:
+def test_the_motion_of_a_shaft_is_reported_once(run, cycle: Path) -> None:
     """Accelerations or speeds or a signal: none is refused, two are."""
     pair = cycle.read_text()
     start, end = pair.index("   signal = "), pair.index("/\n\n&oil")
@@ -139,8 +139,8 @@ def test_a_flank_is_as_stiff_as_all_its_lines(run, tmp_path: Path) -> None:
     """c' times face width times contact lines: of given teeth, and of steel where they are rigid."""
     stiffness = 1.4e10 * 0.016 * 2.5
     (tmp_path / "pair.nml").write_text(PAIR)
-    told = run("--check", "--set", "gear.tooth_stiffness=1.4e10", "pair.nml", cwd=tmp_path)
-    (line,) = (line for line in told.stdout.splitlines() if "derived: contact.stiffness" in line)
+    reported = run("--check", "--set", "gear.tooth_stiffness=1.4e10", "pair.nml", cwd=tmp_path)
+    (line,) = (line for line in reported.stdout.splitlines() if "derived: contact.stiffness" in line)
     assert float(line.split("=")[1].split()[0]) == pytest.approx(stiffness, rel=1e-14)
     ended = run("--set", "gear.tooth_stiffness=0", "pair.nml", cwd=tmp_path)
     assert ended.returncode == 0, ended.stderr
@@ -152,13 +152,13 @@ def test_a_flank_is_as_stiff_as_all_its_lines(run, tmp_path: Path) -> None:
     assert summary["deflection_share"] == pytest.approx(load[worst] / (stiffness * film[worst]), rel=0.03)
 
 
-def test_rigid_teeth_of_a_gear_are_told_the_key_that_makes_them_give(run, tmp_path: Path) -> None:
+def test_rigid_teeth_of_a_gear_are_reported_the_key_that_makes_them_give(run, tmp_path: Path) -> None:
     (tmp_path / "pair.nml").write_text(PAIR)
     settings = ["gear.tooth_stiffness=0", "gear.drag_torque=50", "oil.temperature_celsius=90"]
     settings += ["gear.contact_lines=1"]
     words = [word for setting in settings for word in ("--set", setting)]
-    told = run("--check", *words, "pair.nml", cwd=tmp_path).stdout
-    assert "steel ones have gear.tooth_stiffness = 1.4E10 N/m2" in told, told
+    reported = run("--check", *words, "pair.nml", cwd=tmp_path).stdout
+    assert "steel ones have gear.tooth_stiffness = 1.4E10 N/m2" in reported, reported
 
 
 @pytest.mark.parametrize(

@@ -56,7 +56,7 @@ def test_no_ready_input_has_a_doubtful_signal(warnings) -> None:
 
 @pytest.mark.parametrize("place", [0, 1, 100, 333, 719])
 @pytest.mark.parametrize("value", [0, 400, 1600, 5000, 12000, -5])
-def test_a_sample_that_stands_alone_is_told(place: int, value: int, warnings, engine: Path) -> None:
+def test_a_sample_that_stands_alone_is_reported(place: int, value: int, warnings, engine: Path) -> None:
     """With its line, its value and those of its neighbours, which are cyclic."""
     samples = put(engine, {place: value})
     (line,) = warnings()
@@ -70,7 +70,7 @@ def test_a_sample_that_stands_alone_is_told(place: int, value: int, warnings, en
 
 @pytest.mark.parametrize("place", [0, 100, 640])
 @pytest.mark.parametrize("value", [0, 400, 1600])
-def test_a_run_of_samples_is_told(place: int, value: int, warnings, engine: Path) -> None:
+def test_a_run_of_samples_is_reported(place: int, value: int, warnings, engine: Path) -> None:
     samples = put(engine, {place + i: value for i in range(60)})
     (line,) = warnings()
     assert line.startswith(f"engine_cycle.csv:{HEAD + 1 + place}: column 'speed_rpm' ")
@@ -87,7 +87,7 @@ def test_odd_samples_stand_in_log_and_summary(run, engine: Path) -> None:
         assert "engine_cycle.csv:103: column" in (engine / "results" / name).read_text()
 
 
-def test_a_row_of_a_run_up_is_told(run, tmp_path: Path) -> None:
+def test_a_row_of_a_run_up_is_reported(run, tmp_path: Path) -> None:
     for name in ("gearbox_orders.nml", "gearbox_run_up.csv"):
         shutil.copy(INPUT / name, tmp_path / name)
     lines = (INPUT / "gearbox_run_up.csv").read_text().splitlines()
@@ -175,7 +175,7 @@ def test_of_power_beyond_the_samples_nothing_is_said(run, engine: Path) -> None:
         (2, "no other count can be held against it"),
     ],
 )
-def test_cycles_that_differ_are_told(cycles: int, words: str, warnings, engine: Path) -> None:
+def test_cycles_that_differ_are_reported(cycles: int, words: str, warnings, engine: Path) -> None:
     phase = 2.0 * np.pi * np.arange(SAMPLES) / SAMPLES
     cycle = 12.0 * np.cos(4.0 * phase)
     even, odd = 800.0 + cycle, 800.0 + 1.5 * cycle
@@ -210,7 +210,7 @@ SPEEDS = {
 
 
 @pytest.mark.parametrize("case", SPEEDS)
-def test_speeds_that_were_not_measured_are_told(case: str, warnings, engine: Path) -> None:
+def test_speeds_that_were_not_measured_are_reported(case: str, warnings, engine: Path) -> None:
     """The mean of a signal of speed is the speed at which it was measured; a tenth either way is near."""
     keys, speeds = SPEEDS[case]
     text = (engine / "engine_cycle.nml").read_text()
@@ -226,7 +226,7 @@ def test_speeds_that_were_not_measured_are_told(case: str, warnings, engine: Pat
         assert f"with the same amplitudes {speeds}" in line
 
 
-def test_speeds_of_a_campaign_are_told_and_drawn(run, engine: Path) -> None:
+def test_speeds_of_a_campaign_are_reported_and_drawn(run, engine: Path) -> None:
     """In log and summary, and as lines of the map; a table of scenes is looked at, too."""
     from rattle.campaign_result import read_campaign
     from rattle.figures import campaign_look as look

@@ -37,7 +37,7 @@ RECORD = (
     "record = 'drag_torque', 'drag_bearing', 'drag_synchroniser', 'drag_churning', 'inertia_ratio', "
     "'film_minimum', 'film_force_rms', samples_per_period = 256\n"
 )
-TOLD = ("drag_torque", "drag_bearing", "drag_synchroniser", "drag_churning", "inertia_ratio")
+REPORTED = ("drag_torque", "drag_bearing", "drag_synchroniser", "drag_churning", "inertia_ratio")
 
 
 def scene(drag: str, shaft: str = ORDERS, rest: str = SHORT) -> str:
@@ -80,12 +80,12 @@ def test_check_prints_each_contribution(call) -> None:
         (-20, (0.379199850795, 1.35986651878, 0.0843236932516, 1.82339006283), "stays on its flank"),
         (100, (0.00821821385238, 0.00501152968815, 0.0228524999855, 0.0360822435261), "leaves its flank"),
     ):
-        told = call(text, "--check", settings=(f"oil.temperature_celsius={temperature}",)).stdout
-        found = derived(told)
+        reported = call(text, "--check", settings=(f"oil.temperature_celsius={temperature}",)).stdout
+        found = derived(reported)
         names = ("gear.drag_bearing", "gear.drag_synchroniser", "gear.drag_churning", "gear.drag_torque")
         assert [found[name] for name in names] == pytest.approx(parts, rel=1e-9)
-        assert re.search(r"^! drag torque .* N m: bearing .*, synchroniser .*, churning ", told, re.M)
-        assert re.search(rf"^! inertia ratio Lambda +[\d.]+: without oil the tooth {ratio}$", told, re.M)
+        assert re.search(r"^! drag torque .* N m: bearing .*, synchroniser .*, churning ", reported, re.M)
+        assert re.search(rf"^! inertia ratio Lambda +[\d.]+: without oil the tooth {ratio}$", reported, re.M)
         assert found["gear.contact_ratio"] == pytest.approx(1.351943473539, rel=1e-12)
         assert found["gear.profile_shift_sum"] == pytest.approx(0.107257065031, rel=1e-11)
         assert found["gear.overlap_ratio"] == pytest.approx(1.0868177434, rel=1e-9)
@@ -107,11 +107,11 @@ def test_the_inertia_ratio_is_that_of_the_largest_deceleration(call, tmp_path: P
 
 def test_tables_are_followed_between_their_rows(call) -> None:
     """Cases E1 and E2."""
-    told = call(scene(TABULATED, RUN_UP), "--check", settings=("shaft.speed_rpm=700",)).stdout
-    assert derived(told)["gear.drag_torque"] == pytest.approx(0.08375, rel=1e-14)
-    (amplitudes,) = re.findall(r"^! derived: shaft.accelerations = (.*) rad/s2$", told, re.M)
+    reported = call(scene(TABULATED, RUN_UP), "--check", settings=("shaft.speed_rpm=700",)).stdout
+    assert derived(reported)["gear.drag_torque"] == pytest.approx(0.08375, rel=1e-14)
+    (amplitudes,) = re.findall(r"^! derived: shaft.accelerations = (.*) rad/s2$", reported, re.M)
     assert [float(word) for word in amplitudes.split(",")] == pytest.approx([825.0, 115.0], rel=1e-14)
-    (phases,) = re.findall(r"^! derived: shaft.phases = (.*) rad$", told, re.M)
+    (phases,) = re.findall(r"^! derived: shaft.phases = (.*) rad$", reported, re.M)
     assert [float(word) for word in phases.split(",")] == pytest.approx([0.05, 3.07079632679], rel=1e-11)
     scaled = call(scene(TABULATED, RUN_UP), "--check", settings=("shaft.speed_rpm=700", "gear.drag_scale=3"))
     assert derived(scaled.stdout)["gear.drag_torque"] == pytest.approx(0.25125, rel=1e-14)
@@ -126,11 +126,11 @@ def test_tables_as_people_write_them(call, tmp_path: Path) -> None:
         "\r\n",
     )
     table(tmp_path / "run_up.csv", "acceleration_0.5,speed_rpm", ["0,600", "50,1000"])
-    told = derived(call(scene(TABULATED, RUN_UP), "--check", settings=("shaft.speed_rpm=700",)).stdout)
-    assert told["gear.drag_torque"] == pytest.approx(0.08375, rel=1e-14)
-    assert told["shaft.accelerations"] == pytest.approx(12.5, rel=1e-14)
-    assert told["load.frequency"] == pytest.approx(0.5 * 700.0 / 60.0, rel=1e-14)
-    assert told["shaft.phases"] == 0.0
+    reported = derived(call(scene(TABULATED, RUN_UP), "--check", settings=("shaft.speed_rpm=700",)).stdout)
+    assert reported["gear.drag_torque"] == pytest.approx(0.08375, rel=1e-14)
+    assert reported["shaft.accelerations"] == pytest.approx(12.5, rel=1e-14)
+    assert reported["load.frequency"] == pytest.approx(0.5 * 700.0 / 60.0, rel=1e-14)
+    assert reported["shaft.phases"] == 0.0
 
 
 def test_tables_in_other_units(call, tmp_path: Path) -> None:
@@ -148,13 +148,13 @@ def test_tables_in_other_units(call, tmp_path: Path) -> None:
         [f"{n},{a / 1e3!r},{math.degrees(p)!r},{b},{q}" for n, a, p, b, q in run_up],
     )
     text = scene(TABULATED, RUN_UP)
-    told = call(text, "--check", settings=("shaft.speed_rpm=700",)).stdout.replace("krad", "rad")
-    assert derived(told)["gear.drag_torque"] == pytest.approx(0.08375, rel=1e-12)
-    (amplitudes,) = re.findall(r"^! derived: shaft.accelerations = (.*) rad/s2$", told, re.M)
+    reported = call(text, "--check", settings=("shaft.speed_rpm=700",)).stdout.replace("krad", "rad")
+    assert derived(reported)["gear.drag_torque"] == pytest.approx(0.08375, rel=1e-12)
+    (amplitudes,) = re.findall(r"^! derived: shaft.accelerations = (.*) rad/s2$", reported, re.M)
     assert [float(word) for word in amplitudes.split(",")] == pytest.approx([825.0, 115.0], rel=1e-14)
-    (phases,) = re.findall(r"^! derived: shaft.phases = (.*) rad$", told, re.M)
+    (phases,) = re.findall(r"^! derived: shaft.phases = (.*) rad$", reported, re.M)
     assert [float(word) for word in phases.split(",")] == pytest.approx([0.05, 3.07079632679], rel=1e-11)
-    assert "drag.csv: column 2 (temperature_K): its K are converted to degC" in told
+    assert "drag.csv: column 2 (temperature_K): its K are converted to degC" in reported
 
 
 @pytest.mark.parametrize(
@@ -447,7 +447,7 @@ def test_rows_are_the_single_scenes(varied: str, call, tmp_path: Path) -> None:
     differ = False
     for row, value in enumerate(values):
         alone = summary(call, tmp_path, text, f"{key}={value}")
-        for name in TOLD:
+        for name in REPORTED:
             if name in alone:
                 assert rows[name][row] == alone[name], (name, value)
             else:
@@ -472,8 +472,10 @@ def test_sweeps_tell_the_drag_of_each_value(
     rows = package.read(tmp_path / "swept" / "pair.rattle")
     for row in range(3):
         value = float(rows[key][row])
-        told = derived(call(scene(drag, RUN_UP), "--check", settings=(f"{group}.{key}={value!r}",)).stdout)
-        assert rows["drag_torque"][row] == pytest.approx(told["gear.drag_torque"], rel=1e-14)
+        reported = derived(
+            call(scene(drag, RUN_UP), "--check", settings=(f"{group}.{key}={value!r}",)).stdout
+        )
+        assert rows["drag_torque"][row] == pytest.approx(reported["gear.drag_torque"], rel=1e-14)
         alone = summary(call, tmp_path, scene(drag, RUN_UP), f"{group}.{key}={value!r}")
         assert rows["inertia_ratio"][row] == alone["inertia_ratio"]
 
@@ -493,7 +495,7 @@ def test_thresholds_over_the_drag_scale(call, tmp_path: Path) -> None:
         assert len(rows) == 1, criterion
         brackets[criterion] = (float(rows["lower"].iloc[0]), float(rows["upper"].iloc[0]))
     lower, upper = brackets["'inertia_ratio', level = 1"]
-    # Lambda is told with four digits.
+    # Lambda is reported with four digits.
     assert lower * 0.999 < ratio < upper * 1.001
     assert brackets["'separation'"] == pytest.approx((ratio, ratio), rel=0.05)
 

@@ -374,7 +374,7 @@ def test_a_map_says_where_verdicts_were_not_put_to_the_test(made, tmp_path):
     assert look.UNCERTAIN_HATCH not in hatched(figure.axes[0])
 
 
-def test_levels_of_forces_can_be_told_apart():
+def test_levels_of_forces_is_known_apart():
     for low, high in ((0.2, 0.9), (1.1, 60.0), (0.01, 5000.0), (1e-6, 1e6)):
         levels = campaign_map._levels_of_forces(low, high)
         assert all(low < level < high for level in levels) and levels == sorted(levels)

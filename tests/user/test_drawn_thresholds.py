@@ -229,7 +229,7 @@ def test_two_keys_are_curves_if_few_and_a_surface_if_many(tmp_path):
         (["--map", "edge.rattle"], "is no campaign but the result of task = 'threshold'"),
     ],
 )
-def test_what_cannot_be_drawn_is_told(options, words, tmp_path):
+def test_what_cannot_be_drawn_is_reported(options, words, tmp_path):
     written(tmp_path / "edge.rattle")
     done = call_script("plot.py", "threshold", "edge.rattle", *options, cwd=tmp_path)
     assert done.returncode == 2 and words in done.stderr, done.stderr
@@ -434,13 +434,13 @@ def test_between_the_ends_of_both_sides_either_is_possible(tmp_path):
 def test_the_report_tells_of_another_side_where_no_threshold_is(tmp_path):
     ends = [[60.0, 20.0, 1.0, 1.0], [70.0, 30.0, 1.0, 6.0], [NAN] * 4]
     path = tmp_path / "edge.rattle"
-    for crossings, told in (((1.0, 0.0, 0.0), 1), ((1.0, 1.0, 0.0), 0)):
+    for crossings, reported in (((1.0, 0.0, 0.0), 1), ((1.0, 1.0, 0.0), 0)):
         result = written_with_ends(path, ends, [40.0] * 3, crossings)
-        assert thresholds(result).another_side.sum() == told
+        assert thresholds(result).another_side.sum() == reported
         done = call_script("report.py", path, "--output", tmp_path / "edge.html", "--overwrite")
         assert done.returncode == 0, done.stderr
         words = read_page(tmp_path / "edge.html").words
-        assert ("1 trace without a threshold has motions on another side" in words) == bool(told)
+        assert ("1 trace without a threshold has motions on another side" in words) == bool(reported)
 
 
 def test_a_jump_of_a_curve_is_no_line(tmp_path):

@@ -117,7 +117,7 @@ def test_all_keys_that_differ_are_named(run, scene_text, tmp_path: Path) -> None
     assert run("--quiet", "scene.nml", cwd=tmp_path).returncode == 0
     settings = ["contact.length=0.02", "lubricant.viscosity=0.2", "load.mass=2.0", "load.steady_force=180.0"]
     settings += ["load.frequency=500.0", "film.initial_velocity=0.1"]
-    told = [
+    reported = [
         "contact.length is 0.02 now and was 0.01",
         "lubricant.viscosity is 0.2 now and was 0.3",
         "load.mass is 2.0 now and was 3.0",
@@ -126,7 +126,7 @@ def test_all_keys_that_differ_are_named(run, scene_text, tmp_path: Path) -> None
     for count, more in ((2, ""), (4, ""), (5, "; and 1 key more"), (6, "; and 2 keys more")):
         given = [word for setting in settings[:count] for word in ("--set", setting)]
         ended = run("--resume", *given, "scene.nml", cwd=tmp_path)
-        words = "; ".join(told[:count]) + more
+        words = "; ".join(reported[:count]) + more
         assert ended.stderr == (
             f"scene.nml: results/scene.rattle belongs to another scene: {words}{BEGIN_ANEW}\n"
         )

@@ -33,12 +33,16 @@ def test_gear_films_and_loads_are_those_of_the_reference(run, tmp_path: Path) ->
     (tmp_path / "teeth.nml").write_text(S5)
     ended = run("teeth.nml", cwd=tmp_path)
     assert ended.returncode == 0, ended.stderr
-    told = summary_of(tmp_path / "results" / "teeth.summary.nml")
-    assert told["gear_position_maximum"] == pytest.approx(9.5334473e-05, rel=1e-5)
-    assert told["coast_film_minimum"] == pytest.approx(4.8281494e-06, rel=1e-4)
-    assert told["coast_load_maximum"] == pytest.approx(8.8322, rel=2e-4)
-    assert told["reversal"] is True and told["double_sided"] is False and told["verification"] == "verified"
-    assert len(told["floquet_multipliers"]) == 8
+    reported = summary_of(tmp_path / "results" / "teeth.summary.nml")
+    assert reported["gear_position_maximum"] == pytest.approx(9.5334473e-05, rel=1e-5)
+    assert reported["coast_film_minimum"] == pytest.approx(4.8281494e-06, rel=1e-4)
+    assert reported["coast_load_maximum"] == pytest.approx(8.8322, rel=2e-4)
+    assert (
+        reported["reversal"] is True
+        and reported["double_sided"] is False
+        and reported["verification"] == "verified"
+    )
+    assert len(reported["floquet_multipliers"]) == 8
     result = rattle.read(tmp_path / "results" / "teeth.rattle")
     compression = np.array(result["film_thickness"]) - np.array(result["gear_position"])
     assert np.array(result["film_load"]) == pytest.approx(5.0e7 * compression, rel=1e-9, abs=1e-9)
@@ -137,9 +141,9 @@ def test_a_motion_of_very_many_steps_repeats_after_its_own_period(
 ) -> None:
     (tmp_path / "soft.nml").write_text(text)
     assert run("soft.nml", cwd=tmp_path).returncode == 0
-    told = summary_of(tmp_path / "results" / "soft.summary.nml")
-    assert told["orbit_period"] == 1 and told["orbit_stability"] == "stable"
-    assert told["floquet_multipliers"][0] == pytest.approx(multiplier, rel=error)
+    reported = summary_of(tmp_path / "results" / "soft.summary.nml")
+    assert reported["orbit_period"] == 1 and reported["orbit_stability"] == "stable"
+    assert reported["floquet_multipliers"][0] == pytest.approx(multiplier, rel=error)
 
 
 # The tooth crosses between its flanks where a period begins: its films are thick there, and one of the
@@ -160,8 +164,8 @@ CROSSING = """
 def test_a_multiplier_is_the_rate_at_which_motions_approach_each_other(run, tmp_path: Path) -> None:
     (tmp_path / "one.nml").write_text(CROSSING)
     assert run("one.nml", cwd=tmp_path).returncode == 0
-    told = summary_of(tmp_path / "results" / "one.summary.nml")
-    assert told["orbit_period"] == 1 and told["orbit_stability"] == "stable"
+    reported = summary_of(tmp_path / "results" / "one.summary.nml")
+    assert reported["orbit_period"] == 1 and reported["orbit_stability"] == "stable"
     begun = CROSSING.replace("periods = 30", "periods = 4").replace("periods = 8", "periods = 4")
     velocities = []
     for name, start in (("slow", "0.0"), ("fast", "0.1")):
@@ -173,4 +177,4 @@ def test_a_multiplier_is_the_rate_at_which_motions_approach_each_other(run, tmp_
         velocities.append(np.array(result["squeeze_velocity"])[::512])
     apart = velocities[1] - velocities[0]
     # The faster rates have died away after three periods: 3e-4 of the second ratio, 1e-5 of the fourth.
-    assert told["floquet_multipliers"][0] == pytest.approx(apart[4] / apart[3], rel=3e-4)
+    assert reported["floquet_multipliers"][0] == pytest.approx(apart[4] / apart[3], rel=3e-4)

@@ -38,15 +38,15 @@ def canonical(repository: Path) -> Path:
 )
 def test_the_load_of_the_paper(law: str, peak: float, film: float, canonical: Path) -> None:
     """Beside films solved in nodes, of which it tells the peak within 1.5, the least film within 4 %."""
-    told = package.run(canonical, set={"lubricant.viscosity_law": law}).summary
-    assert told["verification"] == "verified" and told["harmonic_count"] == 6
-    assert told["acceleration_maximum"] == pytest.approx(peak, rel=0.015)
-    assert told["film_minimum"] == pytest.approx(film, rel=0.04)
+    reported = package.run(canonical, set={"lubricant.viscosity_law": law}).summary
+    assert reported["verification"] == "verified" and reported["harmonic_count"] == 6
+    assert reported["acceleration_maximum"] == pytest.approx(peak, rel=0.015)
+    assert reported["film_minimum"] == pytest.approx(film, rel=0.04)
     page = (canonical.parent / "FILM_LAWS.md").read_text().partition("elastohydrodynamic.nml")[2]
     for words in (
-        f"{told['acceleration_maximum']:.0f}",
-        f"{1e6 * told['film_minimum']:.2f}",
-        f"{told['harmonic_count']}",
+        f"{reported['acceleration_maximum']:.0f}",
+        f"{1e6 * reported['film_minimum']:.2f}",
+        f"{reported['harmonic_count']}",
     ):
         assert re.search(rf"\b{re.escape(words)}\b", page.partition("closure")[0]), words
 
@@ -135,14 +135,14 @@ def test_a_held_gear_in_cold_oil_stays_at_its_rest_as_in_nodes() -> None:
     # motion left it with 275 m/s2.
     films = []
     for force in (500.0, 600.0, 700.0):
-        told, nodes = (
+        reported, nodes = (
             package.run(HELD.format(force=force, model=model)).summary for model in ("closure", "resolved")
         )
-        assert told["closure_range"] == "within"
+        assert reported["closure_range"] == "within"
         # Films in nodes of the moving gear are 1 % below those at rest.
-        assert told["steady_film"] == pytest.approx(nodes["film_maximum"], rel=0.05)
-        assert told["acceleration_rms"] < 3.0 / 0.89 and nodes["acceleration_rms"] < 5.0 * 3.0 / 0.89
-        films.append(told["steady_film"])
+        assert reported["steady_film"] == pytest.approx(nodes["film_maximum"], rel=0.05)
+        assert reported["acceleration_rms"] < 3.0 / 0.89 and nodes["acceleration_rms"] < 5.0 * 3.0 / 0.89
+        films.append(reported["steady_film"])
     assert films[0] > films[1] > films[2]
 
 
@@ -150,12 +150,12 @@ def test_drive_rattle_is_that_of_a_torque_that_reverses(repository: Path) -> Non
     """The load reverses, both flanks are struck; under a mean above the amplitudes the flanks never part."""
     scene = repository / "input" / "drive_rattle.nml"
     solved = package.run(scene, set={"solver.starts": 1})
-    told, force = solved.summary, solved.result["applied_force"]
+    reported, force = solved.summary, solved.result["applied_force"]
     assert force.min() < 0.0 < force.mean()
-    assert told["verdict"] == "double-sided impacts" and told["verdict_verified"] is True
-    assert told["verification"] == "verified"
+    assert reported["verdict"] == "double-sided impacts" and reported["verdict_verified"] is True
+    assert reported["verification"] == "verified"
     held = package.run(scene, set={"solver.starts": 1, "load.steady_force": 120.0}).summary
     assert held["verdict"] == "no separation" and held["verification"] == "verified"
     page = (repository / "input" / "README.md").read_text().partition("drive_rattle.nml")[2]
     unit = 226.0e9 * 9.0e-3 * 0.019 * (0.02 * 4.0 / (226.0e9 * 9.0e-3)) ** 0.5
-    assert f"M = {told['load_maximum'] / unit:.1f};" in page.partition("\n")[0]
+    assert f"M = {reported['load_maximum'] / unit:.1f};" in page.partition("\n")[0]

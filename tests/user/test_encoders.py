@@ -99,7 +99,7 @@ def measure(
     )  # fmt: skip
 
 
-def told(folder: Path) -> dict:
+def reported(folder: Path) -> dict:
     return json.loads((folder / "bench.json").read_text())
 
 
@@ -110,7 +110,7 @@ def ratio(bench: Bench) -> float:
 
 def test_backlash_and_impacts_are_seen(bench: Bench, measured: Path) -> None:
     """Films at contact are below 1 um each here; parabolas through steps of 5 um are off as much."""
-    found = told(measured)
+    found = reported(measured)
     assert found["is_double_sided"] and found["periods"] >= PERIODS - 2
     assert found["play"]["value"] == pytest.approx(1.0e-4, rel=0.02)
     for side in ("drive", "coast"):
@@ -126,7 +126,7 @@ def test_backlash_and_impacts_are_seen(bench: Bench, measured: Path) -> None:
 def test_restitution_is_that_of_the_motion(bench: Bench, measured: Path) -> None:
     """Largest velocity within 1.5 ms behind an impact over that before it, of the motion itself."""
     velocity = np.gradient(bench.position, bench.time)
-    found = told(measured)
+    found = reported(measured)
     for side, sign in (("drive", 1.0), ("coast", -1.0)):
         away = sign * velocity
         before = np.min(away[1000:-1000])
@@ -139,13 +139,13 @@ def test_restitution_is_that_of_the_motion(bench: Bench, measured: Path) -> None
 
 def test_flights_tell_drag_over_inertia(bench: Bench, measured: Path) -> None:
     """The oil pulls in flight by some per cent of a drag of 0.1 N m."""
-    found = told(measured)["drag_over_inertia"]
+    found = reported(measured)["drag_over_inertia"]
     assert found["value"] == pytest.approx(ratio(bench), rel=0.04)
     assert found["low"] < ratio(bench) < found["high"] < 1.15 * found["low"]
 
 
 def test_the_orders_of_the_driver_are_those_of_the_shaft(measured: Path) -> None:
-    shaft = told(measured)["shaft"]
+    shaft = reported(measured)["shaft"]
     assert shaft["speed_rpm"] == pytest.approx(800.0, rel=1e-4)
     assert shaft["orders"] == [2.0, 4.0]
     assert shaft["accelerations"] == pytest.approx([600.0, 100.0], rel=0.01)
@@ -174,8 +174,8 @@ def test_drift_and_eccentricity_are_no_backlash(
     bench.write(tmp_path / "bench.csv", drift=drift, eccentricity=eccentricity)
     code, _, complained = measure(tmp_path)
     assert code == 0, complained
-    assert told(tmp_path)["play"]["value"] == pytest.approx(1.0e-4, rel=0.03)
-    assert told(tmp_path)["drag_over_inertia"]["value"] == pytest.approx(ratio(bench), rel=0.06)
+    assert reported(tmp_path)["play"]["value"] == pytest.approx(1.0e-4, rel=0.03)
+    assert reported(tmp_path)["drag_over_inertia"]["value"] == pytest.approx(ratio(bench), rel=0.06)
 
 
 def fitted(said: str, key: str) -> tuple[float, float, float]:
@@ -212,7 +212,7 @@ def test_elastic_teeth_bounce_and_are_fitted_all_the_same(tmp_path: Path, rattle
     bench.write(tmp_path / "bench.csv")
     code, _, complained = measure(tmp_path, "--temperature", 40)
     assert code == 0, complained
-    assert told(tmp_path)["restitution_drive"]["value"] > 0.3
+    assert reported(tmp_path)["restitution_drive"]["value"] > 0.3
     code, said, complained = called_here("calibrate.py", "bench.nml", "bench.json", cwd=tmp_path)
     assert code == 0, complained
     assert fitted(said, "gear.backlash")[0] == pytest.approx(1.0e-4, rel=0.015)
@@ -239,7 +239,7 @@ def test_one_flank_gives_a_bound_alone(tmp_path: Path, rattle: Path) -> None:
     bench.write(tmp_path / "bench.csv")
     code, said, complained = measure(tmp_path)
     assert code == 0, complained
-    found = told(tmp_path)
+    found = reported(tmp_path)
     assert not found["is_double_sided"] and found["impacts_per_period_coast"] < 0.2
     assert found["play"]["value"] == pytest.approx(np.ptp(bench.position), rel=0.1)
     assert "the backlash is larger than the range" in said
@@ -308,7 +308,7 @@ def test_lines_of_pulses_are_encoders_too(bench: Bench, tmp_path: Path) -> None:
     (tmp_path / "bench.nml").write_text(INPUT)
     code, said, complained = measure(tmp_path, "--lines", "400,1000")
     assert code == 0 and "147 samples or lines a period" in said, complained
-    found = told(tmp_path)
+    found = reported(tmp_path)
     assert found["play"]["value"] == pytest.approx(1e-4, rel=0.01)
     assert found["drag_over_inertia"]["value"] == pytest.approx(ratio(bench), rel=0.03)
 

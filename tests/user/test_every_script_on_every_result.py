@@ -168,16 +168,16 @@ def test_scripts_do_their_work_or_say_why_not(kind, results, tmp_path):
         folder = tmp_path / name.replace(" ", "_")
         (folder / "o").mkdir(parents=True)
         code, said, complaint = called_here(script, *before, place, *behind, cwd=folder)
-        told = f"{name} of {kind}: {code}, {said[-200:]}, {complaint}"
-        assert code in (0, 2), told
-        assert "Traceback" not in complaint and "Warning" not in complaint, told
+        reported = f"{name} of {kind}: {code}, {said[-200:]}, {complaint}"
+        assert code in (0, 2), reported
+        assert "Traceback" not in complaint and "Warning" not in complaint, reported
         if code == 0:
             worked.add(name)
-            assert said or any((folder / "o").iterdir()), told
+            assert said or any((folder / "o").iterdir()), reported
         else:
             lines = complaint.rstrip().splitlines()
-            assert lines[-1].endswith((".", "'-h'")) or "error:" in complaint, told
-            assert not any((folder / "o").iterdir()), told
+            assert lines[-1].endswith((".", "'-h'")) or "error:" in complaint, reported
+            assert not any((folder / "o").iterdir()), reported
     assert sorted(worked) == sorted(WORKING[kind])
 
 
@@ -194,16 +194,16 @@ def test_any_two_results_are_compared_or_it_is_said_why_not(kind, results, tmp_p
         output = tmp_path / name.replace(" ", "_")
         arguments = (place, other, "--output", output)
         code, said, complaint = called_here("compare.py", *arguments, cwd=tmp_path)
-        told = f"{kind} beside {name}: {code}, {said}, {complaint}"
-        assert "Traceback" not in complaint and "Warning" not in complaint, told
+        reported = f"{kind} beside {name}: {code}, {said}, {complaint}"
+        assert "Traceback" not in complaint and "Warning" not in complaint, reported
         compared = kind in (BESIDE_ITSELF if name == "itself" else MOTION_KINDS | {"alone.summary.nml"})
-        assert (code == 0) == compared, told
+        assert (code == 0) == compared, reported
         if code == 0:
             page = (output / "comparison.html").read_text()
-            assert ("The answer does not differ" in page) or name != "itself", told
-            assert (output / "comparison.csv").read_text().count("\n") > 1, told
+            assert ("The answer does not differ" in page) or name != "itself", reported
+            assert (output / "comparison.csv").read_text().count("\n") > 1, reported
         else:
-            assert complaint.count("\n") == 1 and complaint.endswith(".\n") and not output.exists(), told
+            assert complaint.count("\n") == 1 and complaint.endswith(".\n") and not output.exists(), reported
 
 
 @pytest.mark.long

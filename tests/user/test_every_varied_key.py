@@ -160,9 +160,9 @@ def differences(
     rows = [tuple(changed(key, values[key]) if key in row else values[key] for key in keys) for row in varied]
     case = gear_rows.Case(text, "", keys, tuple(rows))
     found = list(gear_rows.faults_of(rattle, case, gear_rows.recordable(rattle), place))
-    told = package.read_campaign(place / "results" / "many.rattle")["status"]
+    reported = package.read_campaign(place / "results" / "many.rattle")["status"]
     return found + [
-        f"{row}: no valid scene" for row, status in zip(varied, told, strict=True) if status == 9.0
+        f"{row}: no valid scene" for row, status in zip(varied, reported, strict=True) if status == 9.0
     ]
 
 
@@ -220,8 +220,8 @@ def test_what_follows_from_the_values_of_sweeps(base: str, values, run, place: P
         ended = run("--overwrite", "--set", f"{key}={last!r}", "one.nml", cwd=place)
         assert ended.returncode == 0, ended.stderr
         alone = summary_of(place / "results" / "one.summary.nml")
-        told = [quantity for quantity in FOLLOWING if quantity in rows]
+        reported = [quantity for quantity in FOLLOWING if quantity in rows]
         # What is unknown is 0 in a sweep.
-        assert {quantity: float(rows[quantity][1]) for quantity in told} == {
-            quantity: alone.get(quantity, 0.0) for quantity in told
+        assert {quantity: float(rows[quantity][1]) for quantity in reported} == {
+            quantity: alone.get(quantity, 0.0) for quantity in reported
         }, key

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from figure_words import assert_says, film_of, relative, words_of
 from outcomes import series_in
+from reported import SPOKEN
 from test_drawn_thresholds import ROWS, level_result, written
-from told import SPOKEN
 
 import rattle
 from rattle import codes
@@ -47,19 +47,19 @@ def solved(run, repository, tmp_path_factory):
 
 
 class Motion:
-    """A motion with all that is told of it."""
+    """A motion with all that is reported of it."""
 
     def __init__(self, path: Path) -> None:
         self.result = rattle.read(path)
-        self.told = rattle.read_summary(path.with_suffix(".summary.nml"))
+        self.reported = rattle.read_summary(path.with_suffix(".summary.nml"))
         self.given = self.result.input
-        self.frequency = self.told.get("frequency", self.given["load"].get("frequency"))
+        self.frequency = self.reported.get("frequency", self.given["load"].get("frequency"))
         speed = self.given.get("shaft", {}).get("speed_rpm")
         self.order = None if speed is None else self.frequency / (speed / 60.0)
         self.forced = "force_amplitudes" in self.given["load"]
 
     def title(self, subject: str) -> str:
-        return f"{subject}: {self.told['name']}, {film_of(self.given)}"
+        return f"{subject}: {self.reported['name']}, {film_of(self.given)}"
 
     def time(self) -> str:
         rows = self.result["time"]
@@ -68,10 +68,10 @@ class Motion:
         return f"Time within the last {PERIODS} excitation periods [ms], from $t = {1e3 * start:.2f}$ ms"
 
     def coarse(self, name: str, unit: str, scale: float) -> str:
-        if not self.told["series_coarse"]:
+        if not self.reported["series_coarse"]:
             return ""
-        least, largest = (scale * self.told[f"{name}_{end}"] for end in ("minimum", "maximum"))
-        if not self.told["sampling_sufficient"]:
+        least, largest = (scale * self.reported[f"{name}_{end}"] for end in ("minimum", "maximum"))
+        if not self.reported["sampling_sufficient"]:
             return "Series of too few samples; what lies between them is not known"
         samples = self.result[{"film": "film_thickness"}.get(name, name)][
             -PERIODS * self.result.samples_per_period :
@@ -131,13 +131,13 @@ def test_words_of_histories(solved, name):
 @pytest.mark.parametrize("name", READY)
 def test_words_of_spectra(solved, name):
     motion = Motion(solved[name])
-    told = motion.told
+    reported = motion.reported
     runs, labels = [motion.result], style.run_labels([motion.result])
     load = motion.given["load"]
     mean = load["steady_force"] + load.get("force_mean", 0.0)
     lines = {1: load.get("force_amplitude", 0.0)}
     if motion.forced:
-        given = (told.get(key, load.get(key)) for key in ("force_orders", "force_amplitudes"))
+        given = (reported.get(key, load.get(key)) for key in ("force_orders", "force_amplitudes"))
         lines = dict(zip(*map(np.atleast_1d, given), strict=True))
     largest = max(lines, key=lambda order: abs(lines[order]))
     made = spectra.draw_force(runs, labels, None)
@@ -155,7 +155,7 @@ def test_words_of_spectra(solved, name):
             f"{abs(lines[largest]):.3g} N\nat {largest * motion.frequency:.4g} Hz",
         ]
     )
-    by_samples = not told["sampling_sufficient"]
+    by_samples = not reported["sampling_sufficient"]
     share = 100.0 * motion.given["spectrum"]["harmonic_threshold"]
     reference = "the first harmonic" if not motion.forced else f"harmonic {largest_line(motion, lines)}"
     subject = "Spectrum of the acceleration"
@@ -166,7 +166,7 @@ def test_words_of_spectra(solved, name):
         reference = f"the line of engine order {largest_line(motion, lines) * motion.order:.4g}"
     elif motion.order is not None and motion.forced:
         reference = f"the line of engine order {largest_line(motion, lines) * motion.order:.4g}"
-    between = told.get("orbit_period", 1) > 1 or by_samples
+    between = reported.get("orbit_period", 1) > 1 or by_samples
     assert_says(
         spectra.draw_acceleration(runs, labels, None),
         [
@@ -184,7 +184,7 @@ def test_words_of_spectra(solved, name):
 
 def largest_line(motion: Motion, lines: Mapping[int, float]) -> int:
     """The harmonic of the force at which the acceleration is largest."""
-    found = {int(order): motion.told["harmonics"][int(order) - 1] for order in lines}
+    found = {int(order): motion.reported["harmonics"][int(order) - 1] for order in lines}
     return max(found, key=found.get)
 
 

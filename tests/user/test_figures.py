@@ -64,14 +64,14 @@ def test_only_the_figures_asked_for_are_drawn(iso, piezo, tmp_path):
     assert figure_stems(output) == ["figure_09_creep", "figure_10a_idle", "figure_10b_creep"]
 
 
-def test_runs_of_one_law_are_told_apart_by_scene_name(iso, tmp_path):
+def test_runs_of_one_law_are_distinguished_by_scene_name(iso, tmp_path):
     other = write_motion(tmp_path / "light.rattle", lines={1.0: 1.0})
     output = tmp_path / "figures"
     assert call_script("plot.py", "motion", iso, other, "--figures", "8", "--output", output).returncode == 0
     assert figure_stems(output) == ["figure_08_idle", "figure_08_light"]
 
 
-def test_runs_of_one_name_are_told_apart_by_directory(iso, tmp_path):
+def test_runs_of_one_name_are_distinguished_by_directory(iso, tmp_path):
     (tmp_path / "loose").mkdir()
     other = write_motion(tmp_path / "loose" / "idle.rattle", lines=LINES)
     output = tmp_path / "figures"

@@ -34,7 +34,7 @@ def campaign(tmp_path) -> Path:
 COMMANDS = {
     "a motion as CSV": ("export.py", ("idle.rattle",), {"idle.csv"}),
     "a motion as NetCDF": ("export.py", ("idle.rattle", "--output", "of.nc"), {"of.nc"}),
-    "a table of classes": ("classify.py", ("idle.rattle", "--output", "told.csv"), {"told.csv"}),
+    "a table of classes": ("classify.py", ("idle.rattle", "--output", "reported.csv"), {"reported.csv"}),
     "figures": ("plot.py", ("motion", "idle.rattle", *ONE), {"figure_08_idle.png"}),
     "a regime map": (
         "plot.py",
@@ -113,7 +113,7 @@ def test_one_figure_that_is_there_keeps_all_from_being_drawn(motion, tmp_path):
 def test_links_are_replaced_not_followed(motion, tmp_path):
     target = tmp_path / "target.txt"
     target.write_text("kept")
-    for name, place in (("told.csv", target), ("loose.csv", tmp_path / "absent.txt")):
+    for name, place in (("reported.csv", target), ("loose.csv", tmp_path / "absent.txt")):
         (tmp_path / name).symlink_to(place)
         code, _, complaint = called_here("export.py", motion, "--output", name, cwd=tmp_path)
         assert code == 2 and EXISTS in complaint

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from figure_words import assert_says, power, words_of
 from figure_words import relative as relative_label
+from reported import SPOKEN
 from result_writer import write_motion
-from told import SPOKEN
 
 import rattle
 from rattle.figures import film_fit, film_points, film_pressures, film_slopes, regime_map, style, tolerance
@@ -102,13 +102,13 @@ def test_words_of_figure_5(films, speed_group):
     found = words_of(film_pressures.draw_piezo_viscous(film_points.read_profiles(films), choice))
     for curve in [one for one in expected if isinstance(one, tuple)]:
         value, top, limit = curve
-        told = {
+        reported = {
             word: NUMBER.findall(word.partition(": ")[2]) for word in found if word.startswith(ratio(value))
         }
         (word,) = (
-            word for word, most in told.items() if most and float(most[0]) == pytest.approx(top, rel=6e-3)
+            word for word, most in reported.items() if most and float(most[0]) == pytest.approx(top, rel=6e-3)
         )
-        peak, *pressure = told[word]
+        peak, *pressure = reported[word]
         ending = "no film"
         if not np.isnan(limit):
             assert float(pressure[0]) == pytest.approx(1e-6 * limit, rel=0.02, abs=0.6)
@@ -230,13 +230,13 @@ def test_words_of_the_map_of_regimes(run, repository, tmp_path):
     # What stands in the table is what the summaries and inputs say.
     head, *rows = regime_map.table_rows(scenes)
     for row, result, path in zip(rows, results, paths, strict=True):
-        told = dict(zip(head, row, strict=True))
+        reported = dict(zip(head, row, strict=True))
         load = result.input["load"]
         weight = load["mass"] * load["gravity"]
         summary = rattle.read_summary(path.with_suffix(".summary.nml"))
-        assert told["scene"] == result.scene_name
-        assert told["load [N]"] == f"{load['steady_force'] + load.get('force_mean', 0.0) + weight:.4g}"
-        assert told["steady film [um]"] == f"{1e6 * summary['steady_film']:.4g}"
+        assert reported["scene"] == result.scene_name
+        assert reported["load [N]"] == f"{load['steady_force'] + load.get('force_mean', 0.0) + weight:.4g}"
+        assert reported["steady film [um]"] == f"{1e6 * summary['steady_film']:.4g}"
 
 
 @pytest.mark.parametrize("count", (1, 2))
@@ -259,10 +259,10 @@ def test_words_of_a_loose_tolerance(tmp_path, monkeypatch, count, narrow):
         expected.append(f"{letter}{pair.name}\n{scheme}\n{solver['steps_per_period']} steps a period")
         expected.append(f"{letter}{pair.name}" if letter else None)
         for result, eps in ((tight, "10^{-12}"), (loose, r"2.5 \times 10^{-7}")):
-            told = judge_samples(result, 16)
+            reported = judge_samples(result, 16)
             expected.append(
-                rf"$\varepsilon = {eps}$ m: {told['reversals_per_period']:.3g} reversals a period, "
-                f"class {SPOKEN.get(told['rattle_class'], told['rattle_class'])}"
+                rf"$\varepsilon = {eps}$ m: {reported['reversals_per_period']:.3g} reversals a period, "
+                f"class {SPOKEN.get(reported['rattle_class'], reported['rattle_class'])}"
             )
         expected += [
             "Time within the last 3 excitation periods [ms]",

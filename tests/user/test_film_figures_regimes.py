@@ -102,7 +102,7 @@ def test_grubin_film_of_the_map_is_that_of_the_scene(tmp_path):
     assert parameter * scene.film_per_parameter() == pytest.approx(scene.grubin_film(), rel=1e-12)
 
 
-def test_scenes_of_different_oil_are_told(tmp_path):
+def test_scenes_of_different_oil_are_reported(tmp_path):
     paths = [write_scene(tmp_path / "a.rattle"), write_scene(tmp_path / "b.rattle", alpha=1e-8)]
     done = call_script("plot.py", "regime-map", *paths, "--output", tmp_path)
     assert done.returncode == 0

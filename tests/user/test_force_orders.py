@@ -251,7 +251,7 @@ def test_classify_holds_lines_against_the_orders_of_the_force(run, scene_text, t
 
 
 @pytest.mark.long
-def test_no_sample_lies_beyond_the_extremes_told(run, scene_text, tmp_path: Path) -> None:
+def test_no_sample_lies_beyond_the_extremes_reported(run, scene_text, tmp_path: Path) -> None:
     """Forces of many orders have many peaks nearly as high as the highest: none of them is passed over."""
     rng = np.random.default_rng(5)
     orders = np.arange(1, 33)
@@ -279,14 +279,14 @@ def test_no_sample_lies_beyond_the_extremes_told(run, scene_text, tmp_path: Path
         (tmp_path / f"{name}.nml").write_text(scene_text(**text))
     assert run(*(f"{name}.nml" for name in names), cwd=tmp_path).returncode == 0
     for name in names:
-        told = summary_of(tmp_path / "results" / f"{name}.summary.nml")
+        reported = summary_of(tmp_path / "results" / f"{name}.summary.nml")
         result = rattle.read(tmp_path / "results" / f"{name}.rattle")
         window = slice(-8 * 2048, None)
         for quantity, column in (("acceleration", "acceleration"), ("film", "film_thickness")):
             samples = np.array(result[column])[window]
             reach = np.ptp(samples)
-            assert told[f"{quantity}_maximum"] >= samples.max() - 1e-7 * reach, (name, quantity)
-            assert told[f"{quantity}_minimum"] <= samples.min() + 1e-7 * reach, (name, quantity)
+            assert reported[f"{quantity}_maximum"] >= samples.max() - 1e-7 * reach, (name, quantity)
+            assert reported[f"{quantity}_minimum"] <= samples.min() + 1e-7 * reach, (name, quantity)
 
 
 def test_a_force_of_high_orders_alone_has_all_its_lines_counted(run, scene_text, tmp_path: Path) -> None:

@@ -82,7 +82,7 @@ def test_scale_leaves_the_mean_alone(run, scene_text, folder: Path) -> None:
     assert result["applied_force"][0] == pytest.approx(190.0 + MEAN)
 
 
-def test_what_is_dropped_is_told(run, folder: Path) -> None:
+def test_what_is_dropped_is_reported(run, folder: Path) -> None:
     """As many orders as hold all but a millionth of the power, or as many as are asked for."""
     share = 25.0**2 / (150.0**2 + 60.0**2 + 25.0**2)
     samples = force(phases(90)) + 0.5e-3 * 150.0 * np.cos(2.0 * np.pi * 7.0 * phases(90))
@@ -99,8 +99,8 @@ def test_what_is_dropped_is_told(run, folder: Path) -> None:
         assert "'force': 90 samples; its head says no unit, N is taken;" in line
         assert f"; harmonics 1 to {last} are kept" in line
         assert "its mean of 9.2" in line
-        told = float(line.split(" are kept, ")[1].split(" % of its power is dropped")[0])
-        assert told / 100.0 == pytest.approx(dropped, rel=0.1, abs=1e-25)
+        reported = float(line.split(" are kept, ")[1].split(" % of its power is dropped")[0])
+        assert reported / 100.0 == pytest.approx(dropped, rel=0.1, abs=1e-25)
 
 
 def test_a_run_is_carried_on_with_the_same_signal_only(run, folder: Path) -> None:
@@ -190,7 +190,7 @@ def test_a_signal_that_is_none_is_refused(load: dict, fault: str, refused, scene
     assert fault in found[0]
 
 
-def test_every_fault_of_a_file_is_told_with_its_line(refused, folder: Path) -> None:
+def test_every_fault_of_a_file_is_reported_with_its_line(refused, folder: Path) -> None:
     lines = cycle_text(force(phases(90))).splitlines()
     lines[4] = lines[4].split(",")[0] + ",many"
     lines[7] = "0.5"

@@ -62,7 +62,7 @@ def derived(ended) -> dict[str, float]:
 
 
 def test_check_tells_the_contact_of_a_pair(check) -> None:
-    told = derived(check(PAIR))
+    reported = derived(check(PAIR))
     expected = {
         "gear.base_radius_1": 0.01450969563,
         "gear.base_radius_2": 0.05012440307,
@@ -82,7 +82,7 @@ def test_check_tells_the_contact_of_a_pair(check) -> None:
         "lubricant.pressure_viscosity": 1.7733532e-8,
     }
     for key, value in expected.items():
-        assert told[key] == pytest.approx(
+        assert reported[key] == pytest.approx(
             value, rel=2e-9 if key != "lubricant.pressure_viscosity" else 3e-8
         ), key
 
@@ -93,7 +93,7 @@ def test_the_summary_tells_what_follows_as_check_does(check, run, tmp_path: Path
     text = PAIR.replace("orders = 2.0, accelerations = 600.0", orders)
     checked = check(text.replace("backlash = 1e-4", "backlash = 1e-4, tooth_stiffness = 14e9"))
     assert run("pair.nml", cwd=tmp_path).returncode == 0
-    told = summary_of(tmp_path / "results" / "pair.summary.nml")
+    reported = summary_of(tmp_path / "results" / "pair.summary.nml")
     found = re.findall(
         r"^! derived: (?:contact|kinematics|load|lubricant)\.(\S+) = ((?:[-+.\dE]+(?:, )?)+)",
         checked.stdout,
@@ -102,12 +102,14 @@ def test_the_summary_tells_what_follows_as_check_does(check, run, tmp_path: Path
     assert len(found) > 10
     for key, numbers in found:
         if key != "gravity":
-            assert np.atleast_1d(told[key]).tolist() == [float(number) for number in numbers.split(", ")], key
+            assert np.atleast_1d(reported[key]).tolist() == [
+                float(number) for number in numbers.split(", ")
+            ], key
 
 
 def test_check_tells_a_shifted_pair_off_the_pitch_point(check) -> None:
     changes = [f"gear.{key}={value}" for key, value in SECOND.items()]
-    told = derived(check(PAIR, *changes))
+    reported = derived(check(PAIR, *changes))
     expected = {
         "gear.working_pressure_angle": 23.35107601,
         "gear.base_helix_angle": 28.76138053,
@@ -119,15 +121,15 @@ def test_check_tells_a_shifted_pair_off_the_pitch_point(check) -> None:
         "load.force_amplitudes": 6.228675645,
     }
     for key, value in expected.items():
-        assert told[key] == pytest.approx(value, rel=1e-9), key
+        assert reported[key] == pytest.approx(value, rel=1e-9), key
 
 
 @pytest.mark.parametrize("temperature", OILS)
 def test_oil_at_its_temperature(temperature: int, check) -> None:
-    told = derived(check(PAIR, f"oil.temperature_celsius={temperature}"))
+    reported = derived(check(PAIR, f"oil.temperature_celsius={temperature}"))
     viscosity, pressure_viscosity = OILS[temperature]
-    assert told["lubricant.viscosity"] == pytest.approx(viscosity, rel=5e-9)
-    assert told["lubricant.pressure_viscosity"] == pytest.approx(pressure_viscosity, rel=3e-9)
+    assert reported["lubricant.viscosity"] == pytest.approx(viscosity, rel=5e-9)
+    assert reported["lubricant.pressure_viscosity"] == pytest.approx(pressure_viscosity, rel=3e-9)
 
 
 def test_kind_of_oil_and_its_own_coefficient(check) -> None:
@@ -142,8 +144,8 @@ def test_kind_of_oil_and_its_own_coefficient(check) -> None:
 
 
 def test_stiffness_of_the_teeth_is_that_of_their_width(check) -> None:
-    told = derived(check(PAIR.replace("backlash = 1e-4", "tooth_stiffness = 1.4e10")))
-    assert told["contact.stiffness"] == pytest.approx(1.4e10 * 0.016)
+    reported = derived(check(PAIR.replace("backlash = 1e-4", "tooth_stiffness = 1.4e10")))
+    assert reported["contact.stiffness"] == pytest.approx(1.4e10 * 0.016)
 
 
 def test_orders_of_a_four_stroke_engine_share_a_base(check) -> None:
@@ -182,11 +184,13 @@ def test_a_gear_with_the_contact_of_a_known_motion(run, tmp_path: Path) -> None:
 """)
     ended = run("known.nml", cwd=tmp_path)
     assert ended.returncode == 0, ended.stderr
-    told = summary_of(tmp_path / "results" / "known.summary.nml")
-    assert (told["radius"], told["length"]) == pytest.approx((7.5e-3, 0.02))
-    assert (told["mass"], told["steady_force"], told["frequency"]) == pytest.approx((0.45, 5.0, 26.7))
-    assert told["force_amplitudes"] == pytest.approx([7.9, 2.0, 0.8])
-    assert told["harmonics"][:8] == pytest.approx(
+    reported = summary_of(tmp_path / "results" / "known.summary.nml")
+    assert (reported["radius"], reported["length"]) == pytest.approx((7.5e-3, 0.02))
+    assert (reported["mass"], reported["steady_force"], reported["frequency"]) == pytest.approx(
+        (0.45, 5.0, 26.7)
+    )
+    assert reported["force_amplitudes"] == pytest.approx([7.9, 2.0, 0.8])
+    assert reported["harmonics"][:8] == pytest.approx(
         [1.0544934, 2.0593625, 1.5235086, 0.8887504, 1.8208022, 2.0759337, 1.2894884, 0.4725849], abs=2e-7
     )
     # Python finds what follows where it looks for it.
@@ -244,9 +248,9 @@ def test_a_row_is_the_single_scene_with_that_value(key: str, run, tmp_path: Path
             cwd=tmp_path,
         )
         assert ended.returncode == 0, ended.stderr
-        told = summary_of(tmp_path / "results" / "one.summary.nml")
+        reported = summary_of(tmp_path / "results" / "one.summary.nml")
         for name in ("steady_film", "natural_frequency", "film_minimum"):
-            assert rows[name][row] == told[name], name
+            assert rows[name][row] == reported[name], name
     assert rows["film_minimum"][0] != rows["film_minimum"][1]
 
 
@@ -354,8 +358,8 @@ def test_warnings_that_an_engineer_expects(check) -> None:
     ),
 )
 def test_temperatures_far_beyond_the_data_sheet_are_called_extrapolated(check, temperature, words) -> None:
-    told = check(PAIR, f"oil.temperature_celsius={temperature}").stdout
-    assert words in told if words else "extrapolated" not in told
+    reported = check(PAIR, f"oil.temperature_celsius={temperature}").stdout
+    assert words in reported if words else "extrapolated" not in reported
 
 
 def test_sweeps_and_campaigns_are_warned_of_their_ends(check) -> None:
@@ -394,8 +398,8 @@ def test_a_measured_cycle_of_the_shaft_is_its_orders(kind: str, check, tmp_path:
     (tmp_path / "cycle.csv").write_text("angle,shaft\n" + rows)
     signal = f"signal = 'cycle.csv', signal_kind = '{kind}'"
     ended = check(PAIR.replace("orders = 2.0, accelerations = 600.0", signal))
-    told = derived(ended)
-    assert told["load.frequency"] == pytest.approx(0.5 * 800.0 / 60.0)
+    reported = derived(ended)
+    assert reported["load.frequency"] == pytest.approx(0.5 * 800.0 / 60.0)
     orders = [
         float(number) for number in re.search(r"load.force_amplitudes = (.*) N", ended.stdout)[1].split(",")
     ]
@@ -407,7 +411,7 @@ def test_a_measured_cycle_of_the_shaft_is_its_orders(kind: str, check, tmp_path:
     ]
     assert math.cos(phases[2] - 0.4) == pytest.approx(1.0) and math.cos(phases[3] + 1.0) == pytest.approx(1.0)
     # What is printed is an input of its own.
-    assert derived(check(ended.stdout))["load.force_amplitudes"] == told["load.force_amplitudes"]
+    assert derived(check(ended.stdout))["load.force_amplitudes"] == reported["load.force_amplitudes"]
 
 
 def test_the_highest_order_of_a_speed_has_no_derivative(check, tmp_path: Path) -> None:
@@ -442,15 +446,15 @@ def test_faults_of_a_measured_cycle(check, tmp_path: Path) -> None:
 
 def test_the_page_works_the_ready_pair_through(run, repository: Path, tmp_path: Path) -> None:
     """The numbers that the page on gears has of loose_pair.nml are those of --check."""
-    told = derived(run("--check", repository / "input" / "loose_pair.nml", cwd=tmp_path))
+    reported = derived(run("--check", repository / "input" / "loose_pair.nml", cwd=tmp_path))
     page = (repository / "input" / "GEARS.md").read_text()
     rows = re.findall(r"^\| `(contact|kinematics|load)\.(\w+)`[^|]*\|[^|]*\| ([\d.]+)[^|]*\|$", page, re.M)
     assert len(rows) == 7
     for group, key, value in rows:
-        assert float(value) == pytest.approx(told[f"{group}.{key}"], rel=5e-5), key
+        assert float(value) == pytest.approx(reported[f"{group}.{key}"], rel=5e-5), key
     for what, key in (("viscosity at T", "viscosity"), ("alpha at T", "pressure_viscosity")):
         value = re.search(rf"^\| {what} .*\| (\S+) \|$", page, re.M)[1]
-        assert float(value) == pytest.approx(told[f"lubricant.{key}"], rel=5e-5)
+        assert float(value) == pytest.approx(reported[f"lubricant.{key}"], rel=5e-5)
 
 
 @pytest.mark.parametrize(
@@ -487,8 +491,8 @@ def resolved(echo: str) -> dict[str, str]:
 
 
 def test_a_gear_without_film_and_solver_has_the_defaults_of_gears(check, scene_text, run, tmp_path) -> None:
-    told = resolved(check(BARE).stdout)
-    assert {name: told[name] for name in DEFAULTS} == DEFAULTS
+    reported = resolved(check(BARE).stdout)
+    assert {name: reported[name] for name in DEFAULTS} == DEFAULTS
     scene = resolved(run("--check", "-", cwd=tmp_path, stdin=scene_text()).stdout)
     assert (scene["until"], scene["model"]) == ("'periods'", "'published'")
     assert "tooth_stiffness" not in scene
@@ -510,13 +514,13 @@ def test_defaults_of_gears_solve_what_their_keys_do(run, tmp_path: Path) -> None
 
 
 def test_other_laws_of_a_gear_have_their_own_defaults(check) -> None:
-    told = resolved(check(BARE + "&film law = 'iso-viscous' /\n").stdout)
-    assert (told["model"], told["viscosity_law"]) == ("'reynolds'", "'barus'")
+    reported = resolved(check(BARE + "&film law = 'iso-viscous' /\n").stdout)
+    assert (reported["model"], reported["viscosity_law"]) == ("'reynolds'", "'barus'")
 
 
 def test_rigid_teeth_are_a_stiffness_of_zero(check) -> None:
-    told = check(PAIR.replace("backlash = 1e-4", "backlash = 1e-4, tooth_stiffness = 0"))
-    assert "contact.stiffness" not in told.stdout and "meant in" not in told.stdout
+    reported = check(PAIR.replace("backlash = 1e-4", "backlash = 1e-4, tooth_stiffness = 0"))
+    assert "contact.stiffness" not in reported.stdout and "meant in" not in reported.stdout
 
 
 def test_a_published_film_of_a_gear_is_warned_of(check) -> None:
@@ -546,18 +550,18 @@ def test_check_expects_the_law_that_the_motion_asks_for(temperature: int, check,
     text += "&film law = 'iso-viscous' /\n&solver periods = 60, accuracy = 1e-6 /\n"
     (line,) = (line for line in check(text).stdout.splitlines() if "largest load expected" in line)
     assert run("pair.nml", cwd=tmp_path).returncode == 0
-    told = summary_of(tmp_path / "results" / "pair.summary.nml")
+    reported = summary_of(tmp_path / "results" / "pair.summary.nml")
     load = float(re.search(r"expected +(\S+) N", line)[1])
-    lifted = told["inertia_ratio"] > 1.0
+    lifted = reported["inertia_ratio"] > 1.0
     assert ("an impact without oil" in line) == lifted
-    mass, frequency = told["mass"], told["frequency"]
-    speed = told["force_amplitudes"] / (2.0 * math.pi * frequency * mass)
-    dry = speed * math.sqrt(mass * told["stiffness"])
-    steady = told["steady_force"] + told["force_amplitudes"]
+    mass, frequency = reported["mass"], reported["frequency"]
+    speed = reported["force_amplitudes"] / (2.0 * math.pi * frequency * mass)
+    dry = speed * math.sqrt(mass * reported["stiffness"])
+    steady = reported["steady_force"] + reported["force_amplitudes"]
     assert load == pytest.approx(dry if lifted else steady, rel=5e-3)
-    assert 0.1 * load < told["load_maximum"] < 1.01 * load or not lifted
+    assert 0.1 * load < reported["load_maximum"] < 1.01 * load or not lifted
     fits = {"iso-viscous": "iso-viscous with", "piezo-viscous": "piezo-viscous with"}
     if not lifted:
-        assert fits[told["film_regime"]] in line
-    elif told["film_regime"] == "elastohydrodynamic":
+        assert fits[reported["film_regime"]] in line
+    elif reported["film_regime"] == "elastohydrodynamic":
         assert "elastohydrodynamic fits" in line

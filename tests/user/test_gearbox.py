@@ -85,12 +85,12 @@ def test_each_pair_is_the_scene_of_its_own_input(solve, tmp_path: Path) -> None:
     table = package.read_summary(tmp_path / "results" / "box.summary.nml")
     assert list(table["gears"]) == ["1st", "4th"]
     force, power = 0.0, 0.0
-    for gear, told in table["gears"].items():
+    for gear, reported in table["gears"].items():
         summary = summary_of(tmp_path / "results" / f"box.{gear}.summary.nml")
-        for name, value in told.items():
+        for name, value in reported.items():
             if name not in ("verified", "summary_checksum"):
                 assert summary[name] == value, name
-        force, power = force + told["film_force_rms"] ** 2, power + told["dissipated_power"]
+        force, power = force + reported["film_force_rms"] ** 2, power + reported["dissipated_power"]
     assert table["film_force_rms_uncorrelated"] == pytest.approx(force**0.5, rel=1e-14)
     # Of a run that looks for no repetition the window is the last two of its periods, for all pairs.
     in_phase = np.std(sum(force_of(tmp_path / "results", gear, 2) for gear in ("box.1st", "box.4th")))
@@ -112,13 +112,13 @@ def test_each_pair_is_the_scene_of_its_own_input(solve, tmp_path: Path) -> None:
 
 def test_few_samples_of_the_series_leave_the_sum_of_forces(solve, tmp_path: Path) -> None:
     """The forces are sampled until they have the power that the steps tell, which 64 samples do not."""
-    told = []
+    reported = []
     for samples in (64, 4096):
         solve("box", BOTH, "--set", f"solver.samples_per_period={samples}")
-        told.append(package.read_summary(tmp_path / "results" / "box.summary.nml"))
+        reported.append(package.read_summary(tmp_path / "results" / "box.summary.nml"))
         first = summary_of(tmp_path / "results" / "box.1st.summary.nml")
         assert first["series_coarse"] == (samples == 64)
-    few, many = told
+    few, many = reported
     assert few["film_force_text"] == many["film_force_text"]
     assert few["film_force_rms_uncorrelated"] == many["film_force_rms_uncorrelated"]
     # Samples that have the power of the steps to a millionth.
@@ -142,7 +142,7 @@ def test_pairs_that_repeat_and_one_that_does_not_are_summed_on_one_axis(
     ended = run(*few, repository / "input" / "gearbox.nml", "--output", tmp_path, cwd=tmp_path)
     assert ended.returncode == 0, ended.stderr
     table = package.read_summary(tmp_path / "gearbox.summary.nml")
-    status = {gear: told["status"] for gear, told in table["gears"].items()}
+    status = {gear: reported["status"] for gear, reported in table["gears"].items()}
     assert status == {"1st": "complete", "2nd": "steady", "3rd": "steady", "4th": "steady"}
     total = force_of(tmp_path, "gearbox.1st", 4)
     for gear in ("2nd", "3rd", "4th"):
@@ -162,7 +162,7 @@ def test_pairs_that_repeat_and_one_that_does_not_are_summed_on_one_axis(
 
 @pytest.mark.long
 def test_a_pair_that_fails_leaves_no_sum(solve, tmp_path: Path) -> None:
-    """No rigid piezo-viscous film carries a drag of 40 N m: no sum is told, and the table says why."""
+    """No rigid piezo-viscous film carries a drag of 40 N m: no sum is reported, and the table says why."""
     text = BOTH.replace("'iso-viscous'", "'piezo-viscous'").replace(
         "drag_torque = 0.05", "drag_torque = 40.0"
     )
@@ -183,23 +183,23 @@ def test_a_pair_that_fails_leaves_no_sum(solve, tmp_path: Path) -> None:
 
 
 def test_side_by_side_tells_and_writes_the_same(solve, scene_text, run, tmp_path: Path) -> None:
-    """The first pair takes longest, a scene behind the box fails: told in order, whoever is done first."""
+    """The first pair takes longest, a scene behind the box fails: reported in order, whichever ends first."""
     (tmp_path / "box.nml").write_text(BOTH.replace("periods = 8", "periods = 40"))
     lost = {"film": {"law": "'piezo-viscous'", "model": "'reynolds'"}, "solver": TAYLOR}
     (tmp_path / "lost.nml").write_text(scene_text(**lost))
     (tmp_path / "last.nml").write_text(scene_text())
-    told = {}
+    reported = {}
     for threads in (1, 2, 5):
         place = str(threads)
         files = ("box.nml", "lost.nml", "last.nml")
         ended = run(*files, "--threads", threads, "--output", place, cwd=tmp_path, timeout=600.0)
         assert ended.returncode == 1 and ended.stderr == ""
-        told[place] = re.sub(r"in \S+ s,", "", ended.stdout).replace(f" {place}/", " ")
-    first = [line for line in told["1"].splitlines() if line.startswith("rattle ")]
+        reported[place] = re.sub(r"in \S+ s,", "", ended.stdout).replace(f" {place}/", " ")
+    first = [line for line in reported["1"].splitlines() if line.startswith("rattle ")]
     assert [line.split(", ")[1].split(":")[0] for line in first] == [
         *("scene box.1st", "scene box.4th", "gearbox box", "scene lost", "scene last")
     ]
-    assert told["1"] == told["2"] == told["5"]
+    assert reported["1"] == reported["2"] == reported["5"]
     written = sorted(path.name for path in (tmp_path / "1").iterdir())
     assert "box.4th.state" in written and "box.summary.nml" in written
     for place in ("2", "5"):
@@ -246,7 +246,7 @@ def test_a_signal_ends_all_pairs_that_have_begun(rattle: Path, run, tmp_path: Pa
 
 @pytest.mark.parametrize("threads", [1, 2])
 def test_trouble_with_the_files_of_a_pair_ends_the_call(threads: int, run, tmp_path: Path) -> None:
-    """It is told once; the pair before is complete, the one behind was not begun, and there is no table."""
+    """Reported once; the pair before is complete, the one behind was not begun, and there is no table."""
     (tmp_path / "box.nml").write_text(BOTH + FOURTH.replace("4th", "5th"))
     (tmp_path / "results").mkdir()
     with (tmp_path / "results" / "box.4th.lock").open("w") as held:
@@ -266,8 +266,8 @@ def test_one_gear_keeps_its_name(solve, tmp_path: Path) -> None:
 
 
 def test_check_tells_the_contact_of_each_pair(solve) -> None:
-    told = solve("box", BOTH, "--check").stdout
-    radii = [float(value) for value in re.findall(r"^! derived: gear.base_radius_2 = (\S+)", told, re.M)]
+    reported = solve("box", BOTH, "--check").stdout
+    radii = [float(value) for value in re.findall(r"^! derived: gear.base_radius_2 = (\S+)", reported, re.M)]
     assert radii[0] == pytest.approx(0.05012440307, rel=1e-9)
     assert len(radii) == 2
 
@@ -339,7 +339,7 @@ def test_each_pair_has_its_sweep(solve, tmp_path: Path) -> None:
     assert not (tmp_path / "results" / "box.summary.nml").exists()
 
 
-def test_every_fault_of_every_gear_is_told(run, tmp_path: Path) -> None:
+def test_every_fault_of_every_gear_is_reported(run, tmp_path: Path) -> None:
     bad = (
         "&gear\n   name = '1st', teeth_1 = 11, teth_2 = 38, normal_module = 2e-3\n"
         "   face_width = 0.02, loose_inertia = 1e-3, drag_torque = 0.1\n/\n"
@@ -427,8 +427,8 @@ def test_the_page_on_all_pairs_names_them_and_the_most_severe(solve, tmp_path: P
     assert call_script("report.py", *results, "--output", output).returncode == 0
     page = read_page(output)
     assert page.headings[0] == "Rattle of box"
-    told = {gear: summary_of(tmp_path / "results" / f"box.{gear}.summary.nml") for gear in ("1st", "4th")}
-    severest = max(told, key=lambda gear: told[gear]["film_force_rms"])
+    reported = {gear: summary_of(tmp_path / "results" / f"box.{gear}.summary.nml") for gear in ("1st", "4th")}
+    severest = max(reported, key=lambda gear: reported[gear]["film_force_rms"])
     assert next(table for table in page.tables if table[0][0] == "Pair")[1][0] == severest
     assert page.headings[1] == f"{severest}, the hardest, in pictures"
     assert "The two pairs together load the bearings with" in page.verdicts[0]

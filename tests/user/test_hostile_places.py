@@ -517,7 +517,7 @@ def test_a_limit_of_processor_time_keeps_the_state(rattle: Path, run, scene_text
 
 
 @pytest.mark.parametrize("which", ["input", "result"])
-def test_what_may_not_be_read_is_told_as_such(
+def test_what_may_not_be_read_is_reported_as_such(
     which: str, rattle: Path, run, scene_text, tmp_path: Path
 ) -> None:
     """Root may read all, so for root the program runs as nobody, from a copy that nobody can reach."""

@@ -241,7 +241,7 @@ def test_a_window_shorter_than_the_motion_does_not_tell_all_impacts(run, scene_t
     for window, (verdict, stands, numbers_stand) in verdicts.items():
         ended = run("--overwrite", "--set", f"spectrum.periods={window}", "scene.nml", cwd=tmp_path)
         assert ended.returncode == 0, ended.stderr
-        told = summary_of(tmp_path / "results" / "scene.summary.nml")
-        assert told["orbit_period"] == 3 and told["verdict"] in (verdict, "single-sided impacts")
-        assert told["verdict_verified"] == (stands or told["verdict"] != "separation")
-        assert told["impacts_verified"] == numbers_stand
+        reported = summary_of(tmp_path / "results" / "scene.summary.nml")
+        assert reported["orbit_period"] == 3 and reported["verdict"] in (verdict, "single-sided impacts")
+        assert reported["verdict_verified"] == (stands or reported["verdict"] != "separation")
+        assert reported["impacts_verified"] == numbers_stand

@@ -110,10 +110,14 @@ def test_the_package_solves_reports_and_has_its_kernels(installed, repository, t
         "from rattle import kernels; print(kernels.rupture_angle(0.0))"
     )
     packages = installed / "lib" / "rattle"
-    told = call(sys.executable, "-c", words, cwd=tmp_path, PYTHONPATH=str(packages)).splitlines()
-    assert told[:3] == [str(packages / "rattle" / "__init__.py"), str(installed / "bin" / "rattle"), "idle"]
+    reported = call(sys.executable, "-c", words, cwd=tmp_path, PYTHONPATH=str(packages)).splitlines()
+    assert reported[:3] == [
+        str(packages / "rattle" / "__init__.py"),
+        str(installed / "bin" / "rattle"),
+        "idle",
+    ]
     assert (packages / "rattle" / "py.typed").is_file()
-    assert float(told[3]) == pytest.approx(0.4435543342)
+    assert float(reported[3]) == pytest.approx(0.4435543342)
     call(installed / "bin" / "rattle-report", "out/idle.rattle", cwd=tmp_path)
     page = (tmp_path / "report.html").read_text()
     meaning = key_table()["load", "mass"].meaning.partition(" Follows from")[0]
@@ -250,15 +254,17 @@ def test_pip_installs_the_checkout_with_program_and_kernels(repository, tmp_path
         "import rattle; print(rattle.__file__, rattle.__version__)\n"
         "from rattle import kernels; print(kernels.rupture_angle(0.0))"
     )
-    told = call(sys.executable, "-c", words, cwd=tmp_path, PYTHONPATH=str(site)).split()
-    assert told[0] == str(site / "rattle" / "__init__.py") and float(told[2]) == pytest.approx(0.4435543342)
-    assert told[1] in call(site / "bin" / "rattle", "--version", cwd=tmp_path)
+    reported = call(sys.executable, "-c", words, cwd=tmp_path, PYTHONPATH=str(site)).split()
+    assert reported[0] == str(site / "rattle" / "__init__.py") and float(reported[2]) == pytest.approx(
+        0.4435543342
+    )
+    assert reported[1] in call(site / "bin" / "rattle", "--version", cwd=tmp_path)
     assert {path.name for path in (site / "bin").iterdir()} >= {
         "rattle",
         *(f"rattle-{name}" for name in SCRIPTS),
     }
     described = next(site.glob("rattle-*.dist-info/METADATA")).read_text()
-    assert f"Version: {told[1]}\n" in described
+    assert f"Version: {reported[1]}\n" in described
     assert re.search(r"^Requires-Dist: numpy>=", described, re.MULTILINE)
     recorded = next(site.glob("rattle-*.dist-info/RECORD")).read_text()
     for file in ("keys.md,sha256=", "_kernels", "py.typed,sha256="):

@@ -11,8 +11,8 @@ import campaign_runs
 import numpy as np
 import pytest
 from outcomes import series_in
+from reported import ANY, SPOKEN, assert_reported, counted, short, stated_error
 from test_thresholds import threshold_text
-from told import ANY, SPOKEN, assert_told, counted, short, stated_error
 
 import rattle
 
@@ -52,17 +52,17 @@ def um(length: float, digits: int) -> str:
     return f"{short(1e6 * length, digits)} um"
 
 
-def start_of_motion(told: Mapping[str, Any]) -> str:
+def start_of_motion(summary: Mapping[str, Any]) -> str:
     """What is known before it is solved."""
-    if "steady_film" not in told:
+    if "steady_film" not in summary:
         return "  no rigid piezo-viscous film carries the static load"
-    words = f"  steady film {um(told['steady_film'], 5)}"
-    if "natural_frequency" in told:
-        words += f", natural frequency {short(told['natural_frequency'], 5)} Hz"
-        words += f", damping ratio {short(told['damping_ratio'], 4)}"
+    words = f"  steady film {um(summary['steady_film'], 5)}"
+    if "natural_frequency" in summary:
+        words += f", natural frequency {short(summary['natural_frequency'], 5)} Hz"
+        words += f", damping ratio {short(summary['damping_ratio'], 4)}"
     for name, unit in DRAG.items():
-        if name in told:
-            words += f", {name.replace('_', ' ')} {short(told[name], 4)}{unit}"
+        if name in summary:
+            words += f", {name.replace('_', ' ')} {short(summary[name], 4)}{unit}"
     return words
 
 
@@ -74,92 +74,93 @@ FITTING = {
 RELATIVE = "relative to the shaft, along the line of action"
 
 
-def teeth_words(told: Mapping[str, Any]) -> str:
-    ratios = (f"{name} ratio {short(told[f'{name}_ratio'], 4)}" for name in ("contact", "overlap"))
-    return f"  profile shift sum {short(told['profile_shift_sum'], 3)}, {', '.join(ratios)}"
+def teeth_words(summary: Mapping[str, Any]) -> str:
+    ratios = (f"{name} ratio {short(summary[f'{name}_ratio'], 4)}" for name in ("contact", "overlap"))
+    return f"  profile shift sum {short(summary['profile_shift_sum'], 3)}, {', '.join(ratios)}"
 
 
 def lines_of_motion(path: Path) -> list[str | None]:
     """The log of a motion, from its summary and its resolved input."""
-    told, given = rattle.read_summary(path.with_suffix(".summary.nml")), rattle.read(path).input
-    failed = told["status"] not in SUCCESSES
+    summary, given = rattle.read_summary(path.with_suffix(".summary.nml")), rattle.read(path).input
+    failed = summary["status"] not in SUCCESSES
     return [
-        f"rattle {told['program_version']}, scene {told['name']}: {LAWS[told['model'], told['law']]}",
-        teeth_words(told) if "gear" in given else None,
-        start_of_motion(told),
+        f"rattle {summary['program_version']}, scene {summary['name']}: "
+        f"{LAWS[summary['model'], summary['law']]}",
+        teeth_words(summary) if "gear" in given else None,
+        start_of_motion(summary),
         "  no natural frequency: small motions about the steady film are overdamped"
-        if "steady_film" in told and "natural_frequency" not in told
+        if "steady_film" in summary and "natural_frequency" not in summary
         else None,
-        verdict_words(told) if "rattle_class" in told else None,
-        f"  {told['steps']} steps in {ANY} s, {short(told.get('iterations_per_step', 0.0), 3)} iterations a "
-        f"step, {told['steps_cut']} steps cut where the film law had no value",
-        f"  {told['status']} at t = {short(told['status_time'], 6)} s, film "
-        f"{um(told['film_at_status_time'], 5)}: {told['status_text']}"
+        verdict_words(summary) if "rattle_class" in summary else None,
+        f"  {summary['steps']} steps in {ANY} s, {short(summary.get('iterations_per_step', 0.0), 3)} "
+        f"iterations a step, {summary['steps_cut']} steps cut where the film law had no value",
+        f"  {summary['status']} at t = {short(summary['status_time'], 6)} s, film "
+        f"{um(summary['film_at_status_time'], 5)}: {summary['status_text']}"
         if failed
         else None,
-        *(lines_of_window(told, given) if "rattle_class" in told else []),
-        ending_of_motion(told),
+        *(lines_of_window(summary, given) if "rattle_class" in summary else []),
+        ending_of_motion(summary),
         *files(path),
     ]
 
 
-def lines_of_window(told: Mapping[str, Any], given: Mapping[str, Any]) -> list[str | None]:
-    verification = f" ({spoken_verification(told)})" if "verification" in told else ""
-    limits = [ENDS[name] for name in ENDS if name in told["model_limit"]]
+def lines_of_window(summary: Mapping[str, Any], given: Mapping[str, Any]) -> list[str | None]:
+    verification = f" ({spoken_verification(summary)})" if "verification" in summary else ""
+    limits = [ENDS[name] for name in ENDS if name in summary["model_limit"]]
     relative = f" {RELATIVE}" if "gear" in given else ""
     contradicted = (
         "  warning: the film law of the scene does not fit this regime (law_contradicted); "
-        f"{FITTING[told['film_regime']]} fits"
+        f"{FITTING[summary['film_regime']]} fits"
     )
     return [
-        f"  film {um(told['film_minimum'], 5).removesuffix(' um')} to {um(told['film_maximum'], 5)}, "
-        f"acceleration {short(told['acceleration_minimum'], 5)} to "
-        f"{short(told['acceleration_maximum'], 5)} m/s2{relative}",
-        spectrum_words(told, verification),
+        f"  film {um(summary['film_minimum'], 5).removesuffix(' um')} to {um(summary['film_maximum'], 5)}, "
+        f"acceleration {short(summary['acceleration_minimum'], 5)} to "
+        f"{short(summary['acceleration_maximum'], 5)} m/s2{relative}",
+        spectrum_words(summary, verification),
         "  The motion does not repeat within its window of "
         f"{counted(given['spectrum']['periods'], 'period')}: other windows have other numbers; more of "
         "spectrum.periods steadies them."
-        if told["rattle_class"].startswith("irregular")
-        and told["sampling_sufficient"]
-        and "followed_periods" not in told
+        if summary["rattle_class"].startswith("irregular")
+        and summary["sampling_sufficient"]
+        and "followed_periods" not in summary
         else None,
         "  Extremes, rms, impacts and harmonics are those of "
-        f"{counted(told['followed_periods'], 'period')} that the motion was followed, with standard errors "
-        f"by batches of {counted(told['batch_periods'], 'period')}; extremes of an irregular motion grow "
-        "with time."
-        if "followed_periods" in told
+        f"{counted(summary['followed_periods'], 'period')} that the motion was followed, with standard "
+        f"errors by batches of {counted(summary['batch_periods'], 'period')}; extremes of an irregular "
+        "motion grow with time."
+        if "followed_periods" in summary
         else None,
-        f"  warning: {coarse_words(told, given)}" if told["series_coarse"] else None,
+        f"  warning: {coarse_words(summary, given)}" if summary["series_coarse"] else None,
         f"  warning: {', and '.join(limits)} (model_limit)" if limits else None,
-        *(lines_of_verification(told) if verification else []),
-        f"  {told['motions_text']}",
-        f"  {told['starts_solved'] - 1} further starts were followed for {ANY} periods"
-        if told["starts_solved"] > 1
+        *(lines_of_verification(summary) if verification else []),
+        f"  {summary['motions_text']}",
+        f"  {summary['starts_solved'] - 1} further starts were followed for {ANY} periods"
+        if summary["starts_solved"] > 1
         else None,
-        f"  {regime_words(told)}",
-        contradicted if told["law_contradicted"] else None,
-        stiffness_words(told, given),
+        f"  {regime_words(summary)}",
+        contradicted if summary["law_contradicted"] else None,
+        stiffness_words(summary, given),
     ]
 
 
-def scatter(told: Mapping[str, Any], name: str) -> str:
+def scatter(summary: Mapping[str, Any], name: str) -> str:
     """Two standard errors of a number of an irregular motion."""
-    if "followed_periods" not in told:
+    if "followed_periods" not in summary:
         return ""
-    return f" +- {short(stated_error(told[f'{name}_error'], told[name], 4), 2)}"
+    return f" +- {short(stated_error(summary[f'{name}_error'], summary[name], 4), 2)}"
 
 
-def verdict_words(told: Mapping[str, Any]) -> str:
-    sure = {True: " (numerically verified)", False: " (uncertain)", None: ""}[told.get("verdict_verified")]
-    sure += f"; {class_words(told)}"
-    sure += f" ({spoken_verification(told)})" if "verification" in told else ""
-    sure += f", {SOUNDS[told['rattle_class']]}"
-    rms = told["acceleration_rms"]
+def verdict_words(summary: Mapping[str, Any]) -> str:
+    sure = {True: " (numerically verified)", False: " (uncertain)", None: ""}[summary.get("verdict_verified")]
+    sure += f"; {class_words(summary)}"
+    sure += f" ({spoken_verification(summary)})" if "verification" in summary else ""
+    sure += f", {SOUNDS[summary['rattle_class']]}"
+    rms = summary["acceleration_rms"]
     level = f" ({short(20.0 * np.log10(rms / 1e-6), 4)} dB re 1e-6 m/s2)" if rms > 0.0 else ""
-    force = short(told["film_force_rms"], 4) + scatter(told, "film_force_rms")
-    shaking = short(rms, 4) + scatter(told, "acceleration_rms")
-    words = f"{told['verdict']}{sure}: film force rms {force} N, acceleration rms {shaking} m/s2{level}"
-    assert next(iter(told)) == "verdict_text" and told["verdict_text"] == words
+    force = short(summary["film_force_rms"], 4) + scatter(summary, "film_force_rms")
+    shaking = short(rms, 4) + scatter(summary, "acceleration_rms")
+    words = f"{summary['verdict']}{sure}: film force rms {force} N, acceleration rms {shaking} m/s2{level}"
+    assert next(iter(summary)) == "verdict_text" and summary["verdict_text"] == words
     return f"  {words}"
 
 
@@ -173,72 +174,73 @@ SOUNDS = {
 }
 
 
-def spoken_verification(told: Mapping[str, Any]) -> str:
-    return "numerically verified" if told["verification"] == "verified" else told["verification"]
+def spoken_verification(summary: Mapping[str, Any]) -> str:
+    return "numerically verified" if summary["verification"] == "verified" else summary["verification"]
 
 
-def class_words(told: Mapping[str, Any]) -> str:
-    return SPOKEN.get(told["rattle_class"], told["rattle_class"])
+def class_words(summary: Mapping[str, Any]) -> str:
+    return SPOKEN.get(summary["rattle_class"], summary["rattle_class"])
 
 
-def spectrum_words(told: Mapping[str, Any], verification: str) -> str:
-    if "harmonic_distortion" not in told:
-        return f"  no motion but rounding: {class_words(told)}"
-    bound = "at least " if told["harmonic_count_is_bound"] else ""
-    share = "at least " if told["harmonic_distortion_is_bound"] else ""
-    start = ", from rest" if told["motions"] > 1 else ""
+def spectrum_words(summary: Mapping[str, Any], verification: str) -> str:
+    if "harmonic_distortion" not in summary:
+        return f"  no motion but rounding: {class_words(summary)}"
+    bound = "at least " if summary["harmonic_count_is_bound"] else ""
+    share = "at least " if summary["harmonic_distortion_is_bound"] else ""
+    start = ", from rest" if summary["motions"] > 1 else ""
     return (
-        f"  {bound}{told['harmonic_count']} harmonics, harmonic distortion {share}"
-        f"{short(told['harmonic_distortion'], 3)}, {short(told['reversals_per_period'], 3)} reversals a "
-        f"period: {class_words(told)}{verification}{start}"
+        f"  {bound}{summary['harmonic_count']} harmonics, harmonic distortion {share}"
+        f"{short(summary['harmonic_distortion'], 3)}, {short(summary['reversals_per_period'], 3)} reversals "
+        f"a period: {class_words(summary)}{verification}{start}"
     )
 
 
-def coarse_words(told: Mapping[str, Any], given: Mapping[str, Any]) -> str:
+def coarse_words(summary: Mapping[str, Any], given: Mapping[str, Any]) -> str:
     newmark = given["solver"]["method"] == "newmark"
     key = "solver.steps_per_period" if newmark else "solver.samples_per_period"
-    if not told["sampling_sufficient"]:
+    if not summary["sampling_sufficient"]:
         what = f"the harmonics are those of the samples: raise {key}"
-    elif told["harmonics_by_integrals"]:
+    elif summary["harmonics_by_integrals"]:
         return (
             "the samples of the series are too few for its motion: take peaks from its rows of the "
             "extremes, and harmonics from here, where they are integrals over the steps (series_coarse), or "
             f"raise {key}, which shows all but the shortest impacts"
         )
     else:
-        what = f"{key} = {told['samples_per_period']} would do, as many as gave the harmonics here"
+        what = f"{key} = {summary['samples_per_period']} would do, as many as gave the harmonics here"
     return (
         f"the samples of the series are too few for its motion; {what} "
         "(series_coarse; the rows of the extremes stand in the series)"
     )
 
 
-def lines_of_verification(told: Mapping[str, Any]) -> list[str | None]:
+def lines_of_verification(summary: Mapping[str, Any]) -> list[str | None]:
     errors = [
-        short(stated_error(told[f"{name}_error"], told.get(name, 1.0), 5), 2)
+        short(stated_error(summary[f"{name}_error"], summary.get(name, 1.0), 5), 2)
         for name in ("film", "acceleration_minimum", "acceleration_maximum")
-        if f"{name}_error" in told
+        if f"{name}_error" in summary
     ]
-    multiplier = np.atleast_1d(told.get("floquet_multipliers", [0.0]))
+    multiplier = np.atleast_1d(summary.get("floquet_multipliers", [0.0]))
     return [
-        f"  {told['verification_text']}",
+        f"  {summary['verification_text']}",
         f"  error of the film at most {errors[0]} of it, of the extremes of the acceleration {errors[1]} and "
         f"{errors[2]} m/s2"
         if len(errors) == 3
         else None,
-        f"  the motion repeats after {counted(told['orbit_period'], 'period')}: {told['orbit_stability']}, "
-        f"largest Floquet multiplier {short(float(np.hypot(*multiplier[:2])), 3)}"
-        if "orbit_period" in told and "orbit_stability" in told
+        f"  the motion repeats after {counted(summary['orbit_period'], 'period')}: "
+        f"{summary['orbit_stability']}, largest Floquet multiplier "
+        f"{short(float(np.hypot(*multiplier[:2])), 3)}"
+        if "orbit_period" in summary and "orbit_stability" in summary
         else None,
     ]
 
 
-def regime_words(told: Mapping[str, Any]) -> str:
-    reached = told["alpha_p_maximum"]
-    words = f"{told['film_regime']}: the Reynolds film reaches alpha p = {short(reached, 3)}; "
+def regime_words(summary: Mapping[str, Any]) -> str:
+    reached = summary["alpha_p_maximum"]
+    words = f"{summary['film_regime']}: the Reynolds film reaches alpha p = {short(reached, 3)}; "
     if reached >= 1.0:
         return words + "from 1 on there is no piezo-viscous film of rigid flanks"
-    if told["film_regime"] == "elastohydrodynamic":
+    if summary["film_regime"] == "elastohydrodynamic":
         return words + f"the flanks deflect by {ANY} % of the film, limit 10 %"
     return words + (
         "below 0.1 pressure hardly thickens the oil"
@@ -247,11 +249,11 @@ def regime_words(told: Mapping[str, Any]) -> str:
     )
 
 
-def stiffness_words(told: Mapping[str, Any], given: Mapping[str, Any]) -> str | None:
+def stiffness_words(summary: Mapping[str, Any], given: Mapping[str, Any]) -> str | None:
     """A warning where teeth are rigid and steel ones would deflect by more than a tenth of the film."""
-    if "stiffness" in given["contact"] or not told["stiffness_matters"]:
+    if "stiffness" in given["contact"] or not summary["stiffness_matters"]:
         return None
-    share = told["deflection_share"]
+    share = summary["deflection_share"]
     words = f"{short(share, 2)} times" if share > 1.0 else f"{short(100.0 * share, 2)} % of"
     steel = "gear.tooth_stiffness = 1.4E10 N/m2"
     if "gear" not in given:
@@ -263,18 +265,20 @@ def stiffness_words(told: Mapping[str, Any], given: Mapping[str, Any]) -> str | 
     )
 
 
-def ending_of_motion(told: Mapping[str, Any]) -> str | None:
+def ending_of_motion(summary: Mapping[str, Any]) -> str | None:
     """Vibration severity and impacts, as far as they are known."""
     parts = [
-        f"gear acceleration {end} {short(told[f'gear_acceleration_{end}'], 4)} rad/s2"
+        f"gear acceleration {end} {short(summary[f'gear_acceleration_{end}'], 4)} rad/s2"
         for end in ("rms", "maximum")
-        if f"gear_acceleration_{end}" in told
+        if f"gear_acceleration_{end}" in summary
     ]
     parts += (
-        [f"dissipated power {short(told['dissipated_power'], 4)} W"] if "dissipated_power" in told else []
+        [f"dissipated power {short(summary['dissipated_power'], 4)} W"]
+        if "dissipated_power" in summary
+        else []
     )
-    if "double_sided" in told:
-        parts.append(f"double sided {'yes' if told['double_sided'] else 'no'}")
+    if "double_sided" in summary:
+        parts.append(f"double sided {'yes' if summary['double_sided'] else 'no'}")
     return f"  {', '.join(parts)}" if parts else None
 
 
@@ -322,7 +326,7 @@ FAILED = {
 def test_the_log_of_a_motion_is_its_summary(solve, scene_text, name):
     changes = (MOTIONS | FAILED)[name]
     path = solve(name, named(scene_text(**changes), name), code=1 if name in FAILED else 0)
-    assert_told(log_of(path), lines_of_motion(path))
+    assert_reported(log_of(path), lines_of_motion(path))
 
 
 @pytest.mark.parametrize("name", ("engine_cycle", "loose_pair", "loose_gear", "idle", "creep_period_two"))
@@ -332,23 +336,23 @@ def test_the_log_of_a_ready_scene_is_its_summary(run, repository, tmp_path, name
     found = log_of(path)
     if name == "engine_cycle":
         assert "; engine orders 0.5 to 12 are kept, " in found.pop(1)
-    assert_told(found, lines_of_motion(path))
+    assert_reported(found, lines_of_motion(path))
 
 
 HEADS = ("gear", "verdict", "class", "least film", "peak", "rms", "film force", "power")
 UNITS = ("[um]", "[m/s2]", "[m/s2]", "rms [N]", "[W]")
 
 
-def told_by_the_table(gear: str, told: Mapping[str, Any]) -> list[str]:
+def reported_by_the_table(gear: str, summary: Mapping[str, Any]) -> list[str]:
     """The cells of a pair, as many as there are heads."""
-    word = class_words(told) if "rattle_class" in told else "-"
-    known = "acceleration_minimum" in told
-    peak = max(-told["acceleration_minimum"], told["acceleration_maximum"]) if known else None
-    least = 1e6 * told["film_minimum"] if "film_minimum" in told else None
-    sizes = [told.get(name) for name in ("acceleration_rms", "film_force_rms", "dissipated_power")]
+    word = class_words(summary) if "rattle_class" in summary else "-"
+    known = "acceleration_minimum" in summary
+    peak = max(-summary["acceleration_minimum"], summary["acceleration_maximum"]) if known else None
+    least = 1e6 * summary["film_minimum"] if "film_minimum" in summary else None
+    sizes = [summary.get(name) for name in ("acceleration_rms", "film_force_rms", "dissipated_power")]
     numbers = ["-" if number is None else short(number, 4) for number in (least, peak, *sizes)]
-    verdict = told.get("verdict", told["status"])
-    return [gear, verdict, word + (", verified" if told.get("verified") else ""), *numbers]
+    verdict = summary.get("verdict", summary["status"])
+    return [gear, verdict, word + (", verified" if summary.get("verified") else ""), *numbers]
 
 
 @pytest.mark.parametrize(
@@ -370,14 +374,16 @@ def test_the_log_of_a_gearbox_is_its_table(run, repository, tmp_path, change, co
     table = rattle.read_summary(tmp_path / "box.summary.nml")
     lines = (tmp_path / "box.log").read_text().splitlines()
     ranked = sorted(table["gears"].items(), key=lambda pair: -pair[1].get("film_force_rms", -1.0))
-    others = [f"  {gear}: {told['motions_text']}" for gear, told in ranked if told.get("motions", 1) > 1]
+    others = [
+        f"  {gear}: {summary['motions_text']}" for gear, summary in ranked if summary.get("motions", 1) > 1
+    ]
     behind_sums = slice(len(lines) - 2 - len(others), len(lines) - 2)
     assert lines[behind_sums] == others
     del lines[behind_sums]
     head, heads, units, *rows, uncorrelated, in_phase, words, relative, file = lines
     assert head == f"rattle {table['program_version']}, gearbox box: {len(table['gears'])} pairs"
     cells = [[cell for cell in re.split("  +", row.strip()) if cell] for row in rows]
-    assert cells == [told_by_the_table(gear, told) for gear, told in ranked]
+    assert cells == [reported_by_the_table(gear, summary) for gear, summary in ranked]
     assert tuple(re.split("  +", heads.strip())) == HEADS and tuple(re.split("  +", units.strip())) == UNITS
     # Every unit, and the words of "together", stand under their head.
     starts = [heads.index(name, heads.index("film force") if name == "power" else 0) for name in HEADS]
@@ -386,9 +392,9 @@ def test_the_log_of_a_gearbox_is_its_table(run, repository, tmp_path, change, co
         assert [bool(re.match(r"\S", row[start:])) and row[start - 1] == " " for start in starts] == [
             True
         ] * 8
-    forces = [told.get("film_force_rms", np.nan) for told in table["gears"].values()]
-    powers = [told.get("dissipated_power", np.nan) for told in table["gears"].values()]
-    failed = sum(told["status"] not in SUCCESSES for told in table["gears"].values())
+    forces = [summary.get("film_force_rms", np.nan) for summary in table["gears"].values()]
+    powers = [summary.get("dissipated_power", np.nan) for summary in table["gears"].values()]
+    failed = sum(summary["status"] not in SUCCESSES for summary in table["gears"].values())
     assert table["pairs"] == len(forces) and table["pairs_failed"] == failed and (failed > 0) == (code == 1)
     assert file == f"  {tmp_path}/box.summary.nml"
     assert words == f"  {table['film_force_text']}"
@@ -415,13 +421,13 @@ def test_the_log_of_a_gearbox_is_its_table(run, repository, tmp_path, change, co
 def test_the_log_of_a_film_task_is_its_summary(solve, repository):
     text = (repository / "input" / "film.nml").read_text()
     path = solve("film", text, "--set", "scene.name=film")
-    told, rows = rattle.read_summary(path.with_suffix(".summary.nml")), rattle.read(path).row_count
-    assert told["points"] == rows
-    assert_told(
+    summary, rows = rattle.read_summary(path.with_suffix(".summary.nml")), rattle.read(path).row_count
+    assert summary["points"] == rows
+    assert_reported(
         log_of(path),
         [
             f"rattle {rattle.version}, scene film: film task",
-            f"  {rows} points in {ANY} s: {told['status_text']}",
+            f"  {rows} points in {ANY} s: {summary['status_text']}",
             f"  {path}",
             f"  {path.with_suffix('.profiles.rattle')}",
             f"  {path.with_suffix('.summary.nml')}",
@@ -452,10 +458,10 @@ def test_the_log_of_a_sweep_is_its_rows(solve, scene_text, key, first, last, fai
     text = scene_text(scene={"task": "'sweep'"}, film=film, solver={**TAYLOR, "until": None}, sweep=sweep)
     name = f"sweep_{first[0]}_{last[0]}"
     path = solve(name, text, "--set", f"scene.name={name}", code=int(failed > 0))
-    result, told = rattle.read(path), rattle.read_summary(path.with_suffix(".summary.nml"))
+    result, summary = rattle.read(path), rattle.read_summary(path.with_suffix(".summary.nml"))
     assert failed == int((~np.isin(result["status"], (0, 1))).sum())
     assert (
-        told["status_text"]
+        summary["status_text"]
         == {
             0: "All that was asked for was solved.",
             1: "1 of 7 motions failed (column status). The others were solved.",
@@ -463,13 +469,13 @@ def test_the_log_of_a_sweep_is_its_rows(solve, scene_text, key, first, last, fai
         }[failed]
     )
     beyond = int((result["model_limit"] > 0).sum()) if "model_limit" in result else None
-    assert (told["motions"], told["motions_failed"]) == (result.row_count, failed)
+    assert (summary["motions"], summary["motions_failed"]) == (result.row_count, failed)
     warning = (
         f"  warning: {ANY if beyond is None else beyond} motions beyond what the model can mean: films "
         "beyond a tenth of the radius or below 1 nm (column model_limit)"
     )
     found = log_of(path)
-    assert_told(
+    assert_reported(
         found,
         [
             f"rattle {rattle.version}, scene {name}: sweep of {result.row_count} motions, "
@@ -479,7 +485,7 @@ def test_the_log_of_a_sweep_is_its_rows(solve, scene_text, key, first, last, fai
                 else "published iso-viscous film (35), rupture angle pi/2"
             ),
             warning if "beyond what" in found[1] else None,
-            f"  {result.row_count} motions in {ANY} s: {told['status_text']}",
+            f"  {result.row_count} motions in {ANY} s: {summary['status_text']}",
             *files(path),
         ],
     )
@@ -502,7 +508,7 @@ def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, change
     text = campaign_runs.grid(scene_text, 6, 5, campaign=campaign, **changes)
     text = text.replace("&scene\n", f"&scene\n name = '{name}'\n")
     path = solve(name, text, "--threads", 2, code=int(name == "failing"))
-    rows, told = rattle.read_campaign(path), rattle.read_summary(path.with_suffix(".summary.nml"))
+    rows, summary = rattle.read_campaign(path), rattle.read_summary(path.with_suffix(".summary.nml"))
     failed, count = int(rows.failed.sum()), rows.row_count
     verified = rows["verified"]
     doubts, tested = int((verified == 0.0).sum()), int(np.isfinite(verified).sum())
@@ -510,16 +516,16 @@ def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, change
     coarse = int((rows["sampling_sufficient"] == 0.0).sum())
     irregular, open_ended = (int((rows["rattle_class"] == code).sum()) for code in (4.0, 6.0))
     assert {"irregular": irregular, "far": beyond, "failing": failed, "doubtful": doubts}[name] > 0
-    assert told["scenes"] == told["scenes_done"] == count
-    assert told["scenes_failed_in_this_run"] == failed
-    assert told["scenes_beyond_model_in_this_run"] == beyond
-    assert told["scenes_undersampled_in_this_run"] == coarse
-    assert told["scenes_not_verified_in_this_run"] == doubts
-    assert told["scenes_irregular_in_this_run"] == irregular
-    assert told["scenes_irregular_so_far_in_this_run"] == open_ended
+    assert summary["scenes"] == summary["scenes_done"] == count
+    assert summary["scenes_failed_in_this_run"] == failed
+    assert summary["scenes_beyond_model_in_this_run"] == beyond
+    assert summary["scenes_undersampled_in_this_run"] == coarse
+    assert summary["scenes_not_verified_in_this_run"] == doubts
+    assert summary["scenes_irregular_in_this_run"] == irregular
+    assert summary["scenes_irregular_so_far_in_this_run"] == open_ended
     law = LAWS[("reynolds", "piezo-viscous") if changes else ("published", "iso-viscous")]
     found = log_of(path)
-    assert_told(
+    assert_reported(
         [line for line in found if " s left, " not in line],
         [
             f"rattle {rattle.version}, campaign {name}: {count} scenes, {law}; 1 rank of 2 threads",
@@ -551,29 +557,29 @@ def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, change
 def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
     text = threshold_text(scene_text, threshold={"tolerance": "1e-3"})
     path = solve("edge", text, "--threads", 2)
-    rows, told = rattle.read(path), rattle.read_summary(path.with_suffix(".summary.nml"))
+    rows, summary = rattle.read(path), rattle.read_summary(path.with_suffix(".summary.nml"))
     crossed = rows["crossing"] > 0
     lines, without = int(np.unique(rows["trace"]).size), int((~crossed).sum())
     both = (rows["verified_below"] == 1.0) & (rows["verified_above"] == 1.0)
     doubts = int((crossed & ~both).sum())
-    assert (told["traces"], told["crossings"], told["traces_without_crossing"]) == (
+    assert (summary["traces"], summary["crossings"], summary["traces_without_crossing"]) == (
         lines,
         crossed.sum(),
         without,
     )
-    assert told["crossings_uncertain"] == doubts
+    assert summary["crossings_uncertain"] == doubts
     given = rows.input["threshold"]
-    grid = told["scenes_of_a_grid"]
-    wide = told["crossings_wide"]
-    starts, unsure = 3, told["crossings_end_unsure"]  # three by default
-    followed = told["crossings_followed"]
+    grid = summary["scenes_of_a_grid"]
+    wide = summary["crossings_wide"]
+    starts, unsure = 3, summary["crossings_end_unsure"]  # three by default
+    followed = summary["crossings_followed"]
     assert followed == np.isfinite(rows["last_below"][crossed]).sum()
     others = int(np.isfinite(rows["last_below"][~crossed]).sum())
-    assert told["traces_with_another_side"] == others
+    assert summary["traces_with_another_side"] == others
     places = given["count"]
     while places < grid / lines:
         places = 2 * places - 1
-    assert_told(
+    assert_reported(
         [line for line in log_of(path) if " s left, " not in line],
         [
             f"rattle {rattle.version}, threshold {rows.scene_name}: {counted(lines, 'trace')} "
@@ -586,14 +592,15 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
             f"  then the motions of both sides, from {counted(starts, 'start')}, are followed along "
             f"{given['key']} to where they end; in a trace without a crossing these starts are tried at both "
             "ends and in the middle",
-            f"  {told['scenes']} of {told['scenes']} scenes, {ANY} a second, {told['scenes_failed']} failed",
-            f"  {counted(told['crossings'], 'crossing')}; {without} of {counted(lines, 'trace')} without "
+            f"  {summary['scenes']} of {summary['scenes']} scenes, {ANY} a second, "
+            f"{summary['scenes_failed']} failed",
+            f"  {counted(summary['crossings'], 'crossing')}; {without} of {counted(lines, 'trace')} without "
             f"any; at {counted(doubts, 'crossing')} a side is not verified",
             f"  the ends of {counted(wide, 'crossing')} are verified only farther apart than asked for: the "
             "width tells how sure that is (column width)"
             if wide
             else None,
-            f"  at {told['crossings_either']} of {counted(followed, 'crossing')} either side is possible: "
+            f"  at {summary['crossings_either']} of {counted(followed, 'crossing')} either side is possible: "
             "motions go on beyond the change from rest (columns last_below, last_above)",
             f"  at {counted(unsure, 'crossing')} an end is that of a motion that does not repeat, to "
             "the width of a bracket, or it was lost (columns motion_end_below, motion_end_above)"
@@ -604,8 +611,8 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
             if others
             else None,
             f"  {counted(starts, 'start')} are no proof of others' absence",
-            f"  {told['scenes']} scenes; a grid as fine has {int(grid)}, {short(grid / told['scenes'], 3)} "
-            "times as many",
+            f"  {summary['scenes']} scenes; a grid as fine has {int(grid)}, "
+            f"{short(grid / summary['scenes'], 3)} times as many",
             *files(path),
         ],
     )

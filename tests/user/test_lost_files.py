@@ -188,10 +188,10 @@ def test_one_of_two_runs_refuses(task: str, rattle: Path, scene_text, tmp_path: 
             )
             for _ in range(3)
         ]
-        told = [process.communicate(timeout=600.0)[1] for process in runs]
+        reported = [process.communicate(timeout=600.0)[1] for process in runs]
         codes = [process.returncode for process in runs]
-        assert codes.count(0) == 1, (codes, told)
-        for code, words in zip(codes, told, strict=True):
+        assert codes.count(0) == 1, (codes, reported)
+        for code, words in zip(codes, reported, strict=True):
             assert code in (0, 2, 3)
             if code == 3:
                 assert words == (
@@ -248,7 +248,7 @@ def test_damaged_series_is_not_carried_on(run, scene_text, tmp_path: Path) -> No
     assert contents(tmp_path) == before
 
 
-def test_damaged_summary_is_told(run, scene_text, tmp_path: Path) -> None:
+def test_damaged_summary_is_reported(run, scene_text, tmp_path: Path) -> None:
     (tmp_path / "scene.nml").write_text(scene_text())
     assert run("scene.nml", cwd=tmp_path).returncode == 0
     path = tmp_path / "results" / "scene.summary.nml"

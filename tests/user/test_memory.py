@@ -1,4 +1,4 @@
-"""Too little memory is told in a sentence, with exit code 3, and leaves nothing behind."""
+"""Too little memory is reported in a sentence, with exit code 3, and leaves nothing behind."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def assert_shortage(ended, name: str) -> None:
 
 @pytest.mark.parametrize("options", [(), ("--check",)], ids=["run", "check"])
 @pytest.mark.parametrize("case", SHORTAGES)
-def test_shortage_is_told(case: str, options: tuple[str, ...], run, scene_text, tmp_path: Path) -> None:
+def test_shortage_is_reported(case: str, options: tuple[str, ...], run, scene_text, tmp_path: Path) -> None:
     changes, megabytes, name = SHORTAGES[case]
     (tmp_path / "scene.nml").write_text(scene_text(**changes))
     before = contents(tmp_path)
@@ -105,9 +105,9 @@ def test_more_than_the_machine_has(refused, scene_text, tmp_path: Path) -> None:
     (tmp_path / "scene.nml").write_text(grid(scene_text, 2, 2, **changes))
     fault = f"{'1' + 18 * '0'} scenes"
     for options in ((), ("--check",)):
-        (told,) = refused(*options, "scene.nml")
-        assert fault in told
-        assert "this machine has" in told
+        (reported,) = refused(*options, "scene.nml")
+        assert fault in reported
+        assert "this machine has" in reported
 
 
 def test_threads_of_a_campaign_need_memory(run, scene_text, tmp_path: Path) -> None:
@@ -176,4 +176,4 @@ def test_rows_do_not_depend_on_memory(run, scene_text, tmp_path: Path) -> None:
         words.append(ended.stderr)
         result = solve(run, tmp_path, "--resume", *threads, name=folder)
         assert result.read_bytes() == undisturbed, folder
-    assert any("samples, which impacts as short as these ask for" in told for told in words), words
+    assert any("samples, which impacts as short as these ask for" in reported for reported in words), words

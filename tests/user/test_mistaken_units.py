@@ -73,16 +73,16 @@ OF_CONTACTS = [
 ]
 
 
-def warnings_of(told: str) -> list[str]:
-    return [line for line in told.splitlines() if "is not what machines have" in line]
+def warnings_of(reported: str) -> list[str]:
+    return [line for line in reported.splitlines() if "is not what machines have" in line]
 
 
 @pytest.mark.parametrize(("key", "value", "meant"), OF_GEARS)
 def test_a_gear(key: str, value: str, meant: str, run, tmp_path: Path) -> None:
     (tmp_path / "pair.nml").write_text(PAIR)
-    told = run("--check", "--set", f"{key}={value}", "pair.nml", cwd=tmp_path)
-    assert told.returncode == 0, told.stderr
-    (warning,) = warnings_of(told.stdout)
+    reported = run("--check", "--set", f"{key}={value}", "pair.nml", cwd=tmp_path)
+    assert reported.returncode == 0, reported.stderr
+    (warning,) = warnings_of(reported.stdout)
     group, name = key.split(".")
     assert warning.startswith(f"! warning: --set {key}={value}: &{group} {name}") and meant in warning
     assert re.search(rf"{float(value):g}", warning)
@@ -91,16 +91,16 @@ def test_a_gear(key: str, value: str, meant: str, run, tmp_path: Path) -> None:
 @pytest.mark.parametrize(("key", "value", "meant"), REFUSED)
 def test_what_is_refused_says_it_too(key: str, value: str, meant: str, run, tmp_path: Path) -> None:
     (tmp_path / "pair.nml").write_text(PAIR)
-    told = run("--check", "--set", f"{key}={value}", "pair.nml", cwd=tmp_path)
-    assert told.returncode == 2 and told.stderr.splitlines()[0].endswith(meant), told.stderr
+    reported = run("--check", "--set", f"{key}={value}", "pair.nml", cwd=tmp_path)
+    assert reported.returncode == 2 and reported.stderr.splitlines()[0].endswith(meant), reported.stderr
 
 
 @pytest.mark.parametrize(("key", "value", "meant"), OF_CONTACTS)
 def test_a_contact(key: str, value: str, meant: str, run, scene_text, tmp_path: Path) -> None:
     (tmp_path / "scene.nml").write_text(scene_text(solver={"method": None, "steps_per_period": None}))
-    told = run("--check", "--set", f"{key}={value}", "scene.nml", cwd=tmp_path)
-    assert told.returncode == 0, told.stderr
-    (warning,) = warnings_of(told.stdout)
+    reported = run("--check", "--set", f"{key}={value}", "scene.nml", cwd=tmp_path)
+    assert reported.returncode == 0, reported.stderr
+    (warning,) = warnings_of(reported.stdout)
     assert meant in warning
 
 
@@ -125,7 +125,7 @@ def test_speeds_of_a_shaft_that_swing_too_far(run, tmp_path: Path) -> None:
     (tmp_path / "pair.nml").write_text(PAIR)
     words = ("--set", "shaft.speed_rpm=3000", "--set", "shaft.accelerations=5001")
     assert not warnings_of(run("--check", *words, "pair.nml", cwd=tmp_path).stdout)
-    # Of several orders the largest swing is told, wherever it stands.
+    # Of several orders the largest swing is reported, wherever it stands.
     swings = "orders = 2.0, 4.0, 6.0, accelerations = 300.0, 6000.0, 100.0"
     (tmp_path / "pair.nml").write_text(PAIR.replace("orders = 2.0, accelerations = 600.0", swings))
     (warning,) = warnings_of(run("--check", "pair.nml", cwd=tmp_path).stdout)
@@ -139,8 +139,8 @@ def test_log_summary_and_report_tell_it(run, tmp_path: Path) -> None:
     (warning,) = warnings_of(ended.stdout)
     assert warning.startswith("  warning: pair.nml:2: &gear helix_angle_deg = 0.49 deg")
     assert warning in (tmp_path / "results" / "pair.log").read_text()
-    told = package.read_summary(tmp_path / "results" / "pair.summary.nml")["input_warnings"]
-    assert warning.strip() in ([told] if isinstance(told, str) else told)
+    reported = package.read_summary(tmp_path / "results" / "pair.summary.nml")["input_warnings"]
+    assert warning.strip() in ([reported] if isinstance(reported, str) else reported)
     page = tmp_path / "page.html"
     assert call_script("report.py", tmp_path / "results" / "pair.rattle", "--output", page).returncode == 0
     assert "28.07 deg if it was meant in rad." in read_page(page).words
@@ -215,5 +215,5 @@ def test_no_ready_input_and_no_reference_is_odd(run, repository: Path, tmp_path:
     (tmp_path / "second.nml").write_text(second)
     ready = sorted((repository / "input").glob("*.nml"))
     for path in (tmp_path / "first.nml", tmp_path / "second.nml", *ready):
-        told = run("--check", path, cwd=tmp_path)
-        assert told.returncode == 0 and not warnings_of(told.stdout), path
+        reported = run("--check", path, cwd=tmp_path)
+        assert reported.returncode == 0 and not warnings_of(reported.stdout), path

@@ -71,7 +71,7 @@ def test_curves_and_colours_are_levels_of_the_cuts(result: Path) -> None:
 
 
 @pytest.mark.parametrize("script", (("plot.py", "orders"), ("compare.py",)))
-def test_differences_are_told_in_decibels(script: tuple[str, ...], result: Path, tmp_path: Path) -> None:
+def test_differences_are_reported_in_decibels(script: tuple[str, ...], result: Path, tmp_path: Path) -> None:
     cuts = orders.computed(package.read_campaign(result))
     own = cuts.at(2.0).tolist()
     (tmp_path / "bench.csv").write_text(

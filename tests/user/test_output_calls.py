@@ -1,4 +1,4 @@
-"""Every output call of a run is looked after: its failure is told, and what a kill may lose is bounded."""
+"""Every output call of a run is checked: its failure is reported, and what a kill may lose is bounded."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def meet(shim: Path, rattle: Path, scene_text, tmp_path: Path) -> Callable:
     return call
 
 
-def test_failure_of_every_call_is_told(meet, tmp_path: Path) -> None:
+def test_failure_of_every_call_is_reported(meet, tmp_path: Path) -> None:
     """Of all calls for series, state and summary; nothing incomplete looks complete."""
     whole, calls = meet("whole")
     assert whole.returncode == 0
@@ -66,7 +66,7 @@ def test_failure_of_every_call_is_told(meet, tmp_path: Path) -> None:
     assert tried >= 15
 
 
-def test_failure_of_every_call_of_a_campaign_is_told(meet, tmp_path: Path) -> None:
+def test_failure_of_every_call_of_a_campaign_is_reported(meet, tmp_path: Path) -> None:
     """Also when its file is closed: a disk across the network may say only then that it is full."""
     whole, calls = meet("whole", "map")
     assert whole.returncode == 0

@@ -12,8 +12,8 @@ from figure_words import assert_says, film_of, words_of
 from figure_words import relative as relative_label
 from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
+from reported import SPOKEN
 from test_drawn_thresholds import PLANE, ROWS, written
-from told import SPOKEN
 
 import rattle
 from rattle import codes
@@ -56,10 +56,10 @@ def titles(subject: str, results) -> str:
 
 
 def runs_named(results) -> list[str]:
-    told = [rattle.read_summary(result.path.with_suffix(".summary.nml")) for result in results]
+    reported = [rattle.read_summary(result.path.with_suffix(".summary.nml")) for result in results]
     return [
         f"{result.scene_name}, too few samples" if coarse else result.scene_name
-        for result, coarse in zip(results, [one["series_coarse"] for one in told], strict=True)
+        for result, coarse in zip(results, [one["series_coarse"] for one in reported], strict=True)
     ]
 
 
@@ -117,8 +117,8 @@ def test_words_of_spectra_of_several(solved, names):
             *(result.scene_name for result in results),
         ],
     )
-    told = [rattle.read_summary(result.path.with_suffix(".summary.nml")) for result in results]
-    by_summary = [one["series_coarse"] and one["sampling_sufficient"] for one in told]
+    reported = [rattle.read_summary(result.path.with_suffix(".summary.nml")) for result in results]
+    by_summary = [one["series_coarse"] and one["sampling_sufficient"] for one in reported]
     assert_says(
         spectra.draw_acceleration(results, labels, None),
         [
@@ -157,11 +157,11 @@ def test_words_of_several_sweeps(solved, run, repository, tmp_path):
 
 def test_words_of_two_flanks(solved):
     result = rattle.read(solved["loose_gear"])
-    told = rattle.read_summary(solved["loose_gear"].with_suffix(".summary.nml"))
-    periods = told["orbit_period"]
+    reported = rattle.read_summary(solved["loose_gear"].with_suffix(".summary.nml"))
+    periods = reported["orbit_period"]
     last = "the last excitation period" if periods == 1 else f"the last {periods} excitation periods"
     start = result["time"][-1] - periods / result.frequency
-    title = f"Both flanks: {told['name']}, {film_of(result.input)}"
+    title = f"Both flanks: {reported['name']}, {film_of(result.input)}"
     found = words_of(histories.draw_flanks(result, result.scene_name))
     assert found == sorted(
         [

@@ -12,8 +12,8 @@ import campaign_writer
 import numpy as np
 import pytest
 from report_reader import FACTORS, Page, number, read_page
+from reported import SPOKEN, stated_error
 from test_report import CALM, report, with_summary
-from told import SPOKEN, stated_error
 
 import rattle
 from rattle import codes
@@ -21,7 +21,7 @@ from rattle.keys import key_table
 from rattle.report import motion, page
 from rattle.summary import comparison_table
 
-Told = Mapping[str, Any]
+Reported = Mapping[str, Any]
 Rows = Sequence[list[str]]
 SCALED = {"\N{MICRO SIGN}m": "m", "nm": "m", "mm/s": "m/s", "ms": "s", "MPa": "Pa", "GPa": "Pa", "mJ": "J"}
 WITHOUT = {"-": "", "of key": ""}
@@ -107,26 +107,26 @@ def reader_of_keys(given: Mapping[str, Mapping[str, Any]]) -> Callable[[Rows], N
     return read
 
 
-def reader_of_computed(given: Mapping[str, Mapping[str, Any]], told: Told) -> Callable[[Rows], None]:
+def reader_of_computed(given: Mapping[str, Mapping[str, Any]], summary: Reported) -> Callable[[Rows], None]:
     """How it was computed: settings of the input, and what the summary tells beside quantities."""
     solver = given.get("solver", {})
     known = {
         "Relative accuracy of the film that was aimed at": (solver.get("accuracy"), ""),
         "Tolerance of the iteration on the film": (solver.get("tolerance"), "m"),
         "Steps in a period of the force": (solver.get("steps_per_period"), ""),
-        "Film law": (told.get("law"), ""),
+        "Film law": (summary.get("law"), ""),
         "Film model: published, the formulas of the paper; reynolds, those of rigid flanks": (
-            told.get("model"),
+            summary.get("model"),
             "",
         ),
-        "Speed that the film was computed with": (told.get("speed_used"), "m/s"),
-        "That speed is": (told.get("speed_meaning"), ""),
-        "Accelerations are": (told.get("acceleration_meaning"), ""),
-        "Time at which the run ended": (told.get("status_time"), "s"),
-        "Film at that time": (told.get("film_at_status_time"), "m"),
-        "Time that the computation took": (told.get("wall_seconds"), "s"),
-        "Harmonics of the force": (told.get("force_orders"), ""),
-        "Version of rattle": (told.get("program_version", "0.1.0"), ""),
+        "Speed that the film was computed with": (summary.get("speed_used"), "m/s"),
+        "That speed is": (summary.get("speed_meaning"), ""),
+        "Accelerations are": (summary.get("acceleration_meaning"), ""),
+        "Time at which the run ended": (summary.get("status_time"), "s"),
+        "Film at that time": (summary.get("film_at_status_time"), "m"),
+        "Time that the computation took": (summary.get("wall_seconds"), "s"),
+        "Harmonics of the force": (summary.get("force_orders"), ""),
+        "Version of rattle": (summary.get("program_version", "0.1.0"), ""),
         "Method": (METHODS.get(solver.get("method")), ""),
     }
 
@@ -134,7 +134,7 @@ def reader_of_computed(given: Mapping[str, Mapping[str, Any]], told: Told) -> Ca
         for label, cell in rows:
             name = label.replace(" ", "_")
             unit = next((key.unit for (_, own), key in key_table().items() if own == name), "")
-            value, unit = known.get(label, (told.get(name), unit))
+            value, unit = known.get(label, (summary.get(name), unit))
             assert value is not None, label
             assert_shows(cell, value, unit.replace("-", "") if isinstance(value, list) else unit)
 
@@ -168,17 +168,17 @@ LINES = ("Harmonic", "Amplitude", "Error at most")
 ORDERS = ("Harmonic", "Engine order", "Amplitude", "Error at most")
 
 
-def reader_of_errors(told: Told) -> Callable[[Rows], None]:
+def reader_of_errors(summary: Reported) -> Callable[[Rows], None]:
     names = {quantity.meaning.rstrip("."): name for name, quantity in codes.QUANTITIES.items()}
 
     def read(rows: Rows) -> None:
         wanted = [f"{what}_{end}" for what in ("film", "acceleration") for end in ("minimum", "maximum")]
-        assert [names[row[0]] for row in rows] == [name for name in wanted if name in told]
+        assert [names[row[0]] for row in rows] == [name for name in wanted if name in summary]
         for row in rows:
             name = names[row[0]]
-            assert_shows(row[1], told[name], codes.QUANTITIES[name].unit)
-            if f"{name}_error" in told:
-                error = stated_error(told[f"{name}_error"], told[name], 6)
+            assert_shows(row[1], summary[name], codes.QUANTITIES[name].unit)
+            if f"{name}_error" in summary:
+                error = stated_error(summary[f"{name}_error"], summary[name], 6)
                 assert_shows(row[2], error, codes.QUANTITIES[name].unit)
             else:
                 assert row[2] == "not known"
@@ -186,41 +186,41 @@ def reader_of_errors(told: Told) -> Callable[[Rows], None]:
     return read
 
 
-def reader_of_numbers(told: Told) -> Callable[[Rows], None]:
+def reader_of_numbers(summary: Reported) -> Callable[[Rows], None]:
     """Each row is that of a quantity, rounded to four digits, and none stands there twice."""
 
     def read(rows: Rows) -> None:
         names = {words: name for name, words in motion.NUMBERS.items()}
         shown = [names[row[0]] for row in rows]
-        assert shown == [name for name in motion.NUMBERS if name in told][: page.MOST_NUMBERS]
+        assert shown == [name for name in motion.NUMBERS if name in summary][: page.MOST_NUMBERS]
         for name, row in zip(shown, rows, strict=True):
-            assert_shows(row[1], told[name], codes.QUANTITIES[name].unit, 4)
+            assert_shows(row[1], summary[name], codes.QUANTITIES[name].unit, 4)
 
     return read
 
 
-def reader_of_quantities(told: Told) -> Callable[[Rows], None]:
+def reader_of_quantities(summary: Reported) -> Callable[[Rows], None]:
     def read(rows: Rows) -> None:
         for row in rows:
-            value = told[row[0]]
+            value = summary[row[0]]
             if row[0].endswith("_error"):
-                value = stated_error(value, told.get(row[0].removesuffix("_error"), 1.0), 6)
+                value = stated_error(value, summary.get(row[0].removesuffix("_error"), 1.0), 6)
             assert_shows(row[1], value, codes.QUANTITIES[row[0]].unit)
             assert row[2] == codes.QUANTITIES[row[0]].meaning
 
     return read
 
 
-def reader_of_lines(told: Told, order: float | None) -> Callable[[Rows], None]:
+def reader_of_lines(summary: Reported, order: float | None) -> Callable[[Rows], None]:
     """`order`: the engine order of the base frequency."""
 
     def read(rows: Rows) -> None:
-        assert len(rows) == min(12, len(told["harmonics"]))
+        assert len(rows) == min(12, len(summary["harmonics"]))
         for place, row in enumerate(rows):
             assert row[0] == str(place + 1)
-            assert_shows(row[-2], told["harmonics"][place], "m/s2")
-            if "harmonic_errors" in told:
-                error = stated_error(told["harmonic_errors"][place], told["harmonics"][place], 6)
+            assert_shows(row[-2], summary["harmonics"][place], "m/s2")
+            if "harmonic_errors" in summary:
+                error = stated_error(summary["harmonic_errors"][place], summary["harmonics"][place], 6)
                 assert_shows(row[-1], error, "m/s2")
             if order is not None:
                 assert_shows(row[1], order * (place + 1))
@@ -228,49 +228,53 @@ def reader_of_lines(told: Told, order: float | None) -> Callable[[Rows], None]:
     return read
 
 
-def sentences_on_motion(told: Told, given: Mapping[str, Any]) -> tuple[list[str], list[str]]:
+def sentences_on_motion(summary: Reported, given: Mapping[str, Any]) -> tuple[list[str], list[str]]:
     """What the verdict and the notes say with this summary, and what they must not say."""
     limits = given["spectrum"]
-    count = told["harmonic_count"]
-    bound = "at least " if told.get("harmonic_count_is_bound") else ""
+    count = summary["harmonic_count"]
+    bound = "at least " if summary.get("harmonic_count_is_bound") else ""
     lines = f"{bound}{count} {'harmonic' if count == 1 else 'harmonics'} of the acceleration stand above"
     of = "the largest one of the force's own harmonics" if "force_orders" in given["load"] else "the first"
     threshold = f"{100.0 * limits['harmonic_threshold']:g} % of {of}"
     classes = {
-        "quiet": f"a harmonic distortion of {told.get('harmonic_distortion', np.nan):.4g}, below the limit "
-        f"of {limits['quiet_limit']:g}.",
+        "quiet": f"a harmonic distortion of {summary.get('harmonic_distortion', np.nan):.4g}, below the "
+        f"limit of {limits['quiet_limit']:g}.",
         "creep": f"{lines} {threshold}, fewer than the {limits['idle_harmonics']} from which on it is idle "
         "rattle.",
         "idle": f"{lines} {threshold}; {limits['idle_harmonics']} or more make it idle rattle",
-        "irregular": f"A share of {told.get('irregular_fraction', np.nan):.4g} of the power of the "
+        "irregular": f"A share of {summary.get('irregular_fraction', np.nan):.4g} of the power of the "
         f"acceleration lies off the harmonics of the force; {limits['irregular_limit']:g} is the limit.",
-        "irregular_so_far": f"A share of {told.get('irregular_fraction', np.nan):.4g} of the power of the "
+        "irregular_so_far": f"A share of {summary.get('irregular_fraction', np.nan):.4g} of the power of the "
         "acceleration lies off the harmonics of the force.",
-        "subharmonic": f"but only after {told.get('orbit_period')} periods of the force.",
+        "subharmonic": f"but only after {summary.get('orbit_period')} periods of the force.",
     }
-    found = [classes[told["rattle_class"]]]
-    silent = [words for name, words in classes.items() if name != told["rattle_class"]]
-    period = told.get("orbit_period")
+    found = [classes[summary["rattle_class"]]]
+    silent = [words for name, words in classes.items() if name != summary["rattle_class"]]
+    period = summary.get("orbit_period")
     repeats = "every period" if period == 1 else f"every {period} periods"
-    if "orbit_stability" in told:
+    if "orbit_stability" in summary:
         found.append(
             "A periodic motion was found, but it is unstable"
-            if told["orbit_stability"] == "unstable"
-            else f"it repeats {repeats} of the force ({told['orbit_stability']})."
+            if summary["orbit_stability"] == "unstable"
+            else f"it repeats {repeats} of the force ({summary['orbit_stability']})."
         )
     choose(
-        found, silent, "verification" in told, told.get("verification_text", "No reason."), "a second time"
+        found,
+        silent,
+        "verification" in summary,
+        summary.get("verification_text", "No reason."),
+        "a second time",
     )
-    if told.get("starts_solved", 1) > 1:
-        found.append(f"From other starts: {told['motions_text']}.")
-    if told["model_limit"] != "within":
-        found.append("1 nm" if "narrow" in told["model_limit"] else "a tenth of the radius")
-    share, elastic = told["deflection_share"], "stiffness" in given["contact"]
+    if summary.get("starts_solved", 1) > 1:
+        found.append(f"From other starts: {summary['motions_text']}.")
+    if summary["model_limit"] != "within":
+        found.append("1 nm" if "narrow" in summary["model_limit"] else "a tenth of the radius")
+    share, elastic = summary["deflection_share"], "stiffness" in given["contact"]
     amount = f"{share:.3g} times the thickness of" if share > 1.0 else f"{100.0 * share:.2g} % of"
     would = "deflect" if elastic else "would deflect"
     found.append(f"{would} by {amount} the film")
-    choose(found, silent, told["stiffness_matters"], "no fair assumption", "a fair assumption")
-    choose(found, silent, told["law_contradicted"], "is not the one of that regime", "Never.")
+    choose(found, silent, summary["stiffness_matters"], "no fair assumption", "a fair assumption")
+    choose(found, silent, summary["law_contradicted"], "is not the one of that regime", "Never.")
     impacts = {
         "no separation": "The tooth stays on its drive flank",
         "separation": "The tooth leaves its drive flank, without an impact",
@@ -279,19 +283,19 @@ def sentences_on_motion(told: Told, given: Mapping[str, Any]) -> tuple[list[str]
         "impacts without separation": "The tooth floats and falls back on its film, never leaving it",
     }
     for name, words in impacts.items():
-        if told.get("verdict") != name:
+        if summary.get("verdict") != name:
             silent.append(words)
-    counts = [(told.get(f"impacts_per_period_{flank}", 0.0), flank) for flank in ("drive", "coast")]
+    counts = [(summary.get(f"impacts_per_period_{flank}", 0.0), flank) for flank in ("drive", "coast")]
     hits = [f"{count:.3g}{{}} on the {flank} flank" for count, flank in counts if count > 0.0]
     if hits:
         first = next(count for count, _ in counts if count > 0.0)
         hits[0] = hits[0].format(" impact a period" if first == 1.0 else " impacts a period")
         hits = [words.format("") for words in hits]
-    first = ": ".join(filter(None, (impacts[told["verdict"]], ", ".join(hits))))
-    found.append(f"{first}; film force on the bearings {told['film_force_rms']:.3g} N rms.")
-    if told.get("inertia_ratio", 0.0) > 0.0:
+    first = ": ".join(filter(None, (impacts[summary["verdict"]], ", ".join(hits))))
+    found.append(f"{first}; film force on the bearings {summary['film_force_rms']:.3g} N rms.")
+    if summary.get("inertia_ratio", 0.0) > 0.0:
         found.append(
-            f"Inertia over drag: {told['inertia_ratio']:.2f}. "
+            f"Inertia over drag: {summary['inertia_ratio']:.2f}. "
             "Below 1 a tooth stays on its flank, or on the film there"
         )
     regimes = {
@@ -299,11 +303,11 @@ def sentences_on_motion(told: Told, given: Mapping[str, Any]) -> tuple[list[str]
         "piezo-viscous": "thickens the oil, and the flanks keep their shape (piezo-viscous regime)",
         "elastohydrodynamic": "too high for flanks that keep their shape",
     }
-    found += [words for name, words in regimes.items() if told["film_regime"] == name]
-    silent += [words for name, words in regimes.items() if told["film_regime"] != name]
-    found.append(f"The window is the last {told['window_periods']} periods of the force.")
-    if len(told["harmonics"]) > 12:
-        found.append(f"The summary lists {len(told['harmonics'])} of them.")
+    found += [words for name, words in regimes.items() if summary["film_regime"] == name]
+    silent += [words for name, words in regimes.items() if summary["film_regime"] != name]
+    found.append(f"The window is the last {summary['window_periods']} periods of the force.")
+    if len(summary["harmonics"]) > 12:
+        found.append(f"The summary lists {len(summary['harmonics'])} of them.")
     return found, silent
 
 
@@ -338,7 +342,7 @@ def opening(given: Mapping[str, Mapping[str, Any]], ranges: Mapping[str, tuple[f
 
 
 def choose(found: list[str], silent: list[str], is_so: bool, words: str, otherwise: str) -> None:
-    """The words that hold are told, the others are not."""
+    """The words that hold are reported, the others are not."""
     (found if is_so else silent).append(words)
     (silent if is_so else found if otherwise != "Never." else []).append(otherwise)
 
@@ -365,16 +369,16 @@ def asked(given: Mapping[str, Mapping[str, Any]], words: str) -> list[str]:
         value = given.get(group, {}).get(name)
         if value is None:
             continue
-        told = re.search(rf"(?:^|[;:] ){meaning} ([^;]*?)(?=;|\. |$)", words)
-        assert told, meaning
+        summary = re.search(rf"(?:^|[;:] ){meaning} ([^;]*?)(?=;|\. |$)", words)
+        assert summary, meaning
         values = value if isinstance(value, list) else [value]
-        shown = told[1].split(", ")
+        shown = summary[1].split(", ")
         assert len(shown) == len(values)
         for one, other in zip(shown, values, strict=True):
             digits, _, unit = one.partition(" ")
             sign = digits.replace("-", "\N{MINUS SIGN}").replace("e", "\N{MULTIPLICATION SIGN}10")
             assert_shows(f"{sign}\xa0{unit}" if unit else sign, other, key_table()[group, name].unit)
-        found.append(f"{meaning} {told[1]}")
+        found.append(f"{meaning} {summary[1]}")
     return found
 
 
@@ -382,26 +386,26 @@ NUMERICAL = "numerically verified"
 
 
 def assert_motion(path: Path) -> None:
-    page, told = read_page(report(path)), rattle.read_summary(path.with_suffix(".summary.nml"))
+    page, summary = read_page(report(path)), rattle.read_summary(path.with_suffix(".summary.nml"))
     result = rattle.read(path)
     given = result.input
     shaft = given.get("shaft", {}).get("speed_rpm")
-    order = told["frequency"] / (shaft / 60.0) if shaft else None
+    order = summary["frequency"] / (shaft / 60.0) if shaft else None
     readers = {
-        NUMBERS: reader_of_numbers(told),
-        ERRORS: reader_of_errors(told),
-        QUANTITIES: reader_of_quantities(told),
-        LINES: reader_of_lines(told, None),
-        ORDERS: reader_of_lines(told, order),
-        COMPUTED: reader_of_computed(given, told),
+        NUMBERS: reader_of_numbers(summary),
+        ERRORS: reader_of_errors(summary),
+        QUANTITIES: reader_of_quantities(summary),
+        LINES: reader_of_lines(summary, None),
+        ORDERS: reader_of_lines(summary, order),
+        COMPUTED: reader_of_computed(given, summary),
         KEYS: reader_of_keys(given),
     }
     lines = ORDERS if shaft else LINES
     assert_tables(page, readers, [NUMBERS, ERRORS, QUANTITIES, lines, KEYS, COMPUTED])
     # All that the summary tells has a row.
-    plain = [name for name in told if name in codes.QUANTITIES and not isinstance(told[name], list)]
+    plain = [name for name in summary if name in codes.QUANTITIES and not isinstance(summary[name], list)]
     assert [row[0] for row in page.tables[2][1:]] == plain
-    sentences, silent = sentences_on_motion(told, given)
+    sentences, silent = sentences_on_motion(summary, given)
     sentences.append(opening(given, {}))
     assert page.paragraphs[0] == sentences[-1]
     repeats = result.orbit_period
@@ -420,16 +424,16 @@ def assert_motion(path: Path) -> None:
         )
     sentences.append(f"This text, saved as {path.stem}.nml, repeats the run with: rattle {path.stem}.nml")
     sentences.append(f"Save as {path.stem}.nml")
-    if told["film_regime"] == "elastohydrodynamic":
+    if summary["film_regime"] == "elastohydrodynamic":
         sentences.append("flatten by more than a tenth of the film")
-    odd = np.atleast_1d(told.get("input_warnings", [])).tolist()
+    odd = np.atleast_1d(summary.get("input_warnings", [])).tolist()
     sentences += [f"{words[:1].upper()}{words[1:]}." for words in odd]
     assert_numbers(page, sentences, silent)
-    word = SPOKEN.get(told["rattle_class"], told["rattle_class"])
-    verified = {True: NUMERICAL, False: "uncertain", None: "not examined"}[told.get("verdict_verified")]
-    of_class = told.get("verification", "not examined")
+    word = SPOKEN.get(summary["rattle_class"], summary["rattle_class"])
+    verified = {True: NUMERICAL, False: "uncertain", None: "not examined"}[summary.get("verdict_verified")]
+    of_class = summary.get("verification", "not examined")
     of_class = NUMERICAL if of_class == "verified" else of_class
-    assert page.paragraphs[1] == told["verdict"] + verified
+    assert page.paragraphs[1] == summary["verdict"] + verified
     assert page.paragraphs[2] == f"Class: {word}{of_class}"
     assert page.badges == [verified, of_class]
 
@@ -498,21 +502,23 @@ def test_the_page_of_a_gearbox_is_its_table(run, repository, tmp_path):
         gear: rattle.read_summary(path.with_suffix(".summary.nml")) if gear != "2nd" else box["gears"][gear]
         for gear, path in zip(box["gears"], paths, strict=True)
     }
-    forces = {gear: told["film_force_rms"] for gear, told in whole.items() if "film_force_rms" in told}
+    forces = {
+        gear: summary["film_force_rms"] for gear, summary in whole.items() if "film_force_rms" in summary
+    }
     assert len(forces) == 3
     assert [row[0] for row in rows] == [*sorted(forces, key=forces.get, reverse=True), "2nd"]
     for gear, *row in rows:
-        told = whole[gear]
+        summary = whole[gear]
         if gear == "2nd":
             assert row[:4] == ["-", "-", "- / -", "-"] and row[5].partition(";")[0] == "-"
             continue
-        assert row[0] == told["verdict"]
-        assert_shows(row[1], told["film_force_rms"], "N", 4)
-        counts = [told[f"impacts_per_period_{flank}"] for flank in ("drive", "coast")]
+        assert row[0] == summary["verdict"]
+        assert_shows(row[1], summary["film_force_rms"], "N", 4)
+        counts = [summary[f"impacts_per_period_{flank}"] for flank in ("drive", "coast")]
         assert row[2] == " / ".join(f"{count:.3g}" for count in counts)
-        speeds = [told[f"impact_velocity_maximum_{flank}"] for flank in ("drive", "coast")]
+        speeds = [summary[f"impact_velocity_maximum_{flank}"] for flank in ("drive", "coast")]
         assert_shows(row[3], max(speeds), "m/s", 3)
-        assert_shows(row[4], told["inertia_ratio"], "", 4)
+        assert_shows(row[4], summary["inertia_ratio"], "", 4)
         assert row[5].partition(";")[0] == NUMERICAL
     sums = [box[f"film_force_rms_{how}"] for how in ("uncorrelated", "in_phase")]
     words = f"with {sums[0]:.3g} N rms if their forces are independent, {sums[1]:.3g} N in phase."
@@ -592,7 +598,7 @@ def test_the_page_of_a_campaign_is_its_rows(tmp_path, chosen, failures, undone):
         KEYS,
         COMPUTED,
     ]
-    told = rattle.read_campaign(path)
+    summary = rattle.read_campaign(path)
     readers = {
         NUMBERS: lambda rows: assert_numbers_of_campaign(rows, columns, good, dict(made.columns)),
         CLASSES: lambda rows: assert_classes(rows, columns.get("rattle_class")),
@@ -606,12 +612,12 @@ def test_the_page_of_a_campaign_is_its_rows(tmp_path, chosen, failures, undone):
             },
             dict(made.columns),
         ),
-        COMPUTED: reader_of_computed(told.input, {}),
-        KEYS: reader_of_keys(told.input),
+        COMPUTED: reader_of_computed(summary.input, {}),
+        KEYS: reader_of_keys(summary.input),
     }
     assert_tables(page, readers, heads)
     (short,) = (words for words in page.paragraphs if words.endswith("All inputs stand below."))
-    sentences += asked({k: v for k, v in told.input.items() if k != "kinematics"} | {"load": LOAD}, short)
+    sentences += asked({k: v for k, v in summary.input.items() if k != "kinematics"} | {"load": LOAD}, short)
     sentences.append("This text, saved as map.nml, repeats the run with: rattle map.nml")
     sentences.append("Save as map.nml")
     if classes:
@@ -625,7 +631,7 @@ def test_the_page_of_a_campaign_is_its_rows(tmp_path, chosen, failures, undone):
     else:
         sentences += first_words(columns, done, failed)
     ranges = {"force_amplitude": (20.0, 400.0), "entrainment_speed": (0.5, 5.0)}
-    sentences.append(opening(told.input, ranges))
+    sentences.append(opening(summary.input, ranges))
     assert page.paragraphs[0] == sentences[-1]
     assert_numbers(page, sentences)
 
@@ -749,11 +755,11 @@ def test_the_page_of_a_film_task_is_its_rows(run, repository, tmp_path):
     assert run(repository / "input" / "film.nml", "--output", tmp_path, cwd=tmp_path).returncode == 0
     path = tmp_path / "film.rattle"
     page, result = read_page(report(path)), rattle.read(path)
-    told = rattle.read_summary(path.with_suffix(".summary.nml"))
+    summary = rattle.read_summary(path.with_suffix(".summary.nml"))
     columns = {name: np.array(result[name]) for name in result.names if codes.words_of(name) is None}
     readers = {
         RANGES: reader_of_ranges(columns, result.units),
-        COMPUTED: reader_of_computed(result.input, told),
+        COMPUTED: reader_of_computed(result.input, summary),
         KEYS: reader_of_keys(result.input),
     }
     assert_tables(page, readers, [RANGES, KEYS, COMPUTED])

@@ -36,17 +36,17 @@ def solved(tmp_path_factory) -> Path:
 
 def test_profiles_are_those_of_the_impacts(solved: Path) -> None:
     result = package.read(solved / "one.rattle")
-    told = summary_of(solved / "one.summary.nml")
+    reported = summary_of(solved / "one.summary.nml")
     found = profiles.profiles_of(result)
-    count = {flank: told[f"impacts_{name}"] for flank, name in ((1, "drive"), (2, "coast"))}
+    count = {flank: reported[f"impacts_{name}"] for flank, name in ((1, "drive"), (2, "coast"))}
     assert [sum(one.flank == flank for one in found) for flank in (1, 2)] == [count[1], count[2]]
     assert [one.time for one in found] == sorted(one.time for one in found)
     for flank, name in ((1, "drive"), (2, "coast")):
         times = [one.time for one in found if one.flank == flank]
-        # The end of a step, some 35 of them an impact of 2 % of a period, is told.
-        assert times == pytest.approx(np.atleast_1d(told[f"impact_times_{name}"]), abs=2e-3 / 30.0)
+        # The end of a step, some 35 of them an impact of 2 % of a period, is reported.
+        assert times == pytest.approx(np.atleast_1d(reported[f"impact_times_{name}"]), abs=2e-3 / 30.0)
         loads = [one.load for one in found if one.flank == flank]
-        assert loads == pytest.approx(np.atleast_1d(told[f"impact_loads_{name}"]), rel=4e-3)
+        assert loads == pytest.approx(np.atleast_1d(reported[f"impact_loads_{name}"]), rel=4e-3)
     for one in found:
         columns = one.columns
         carried = 0.018943 * np.sum(columns["pressure"] * columns["weight"])
@@ -63,13 +63,15 @@ def test_profiles_are_those_of_the_impacts(solved: Path) -> None:
         ellipse = height * np.sqrt(np.maximum(0.0, 1.0 - (columns["position"] / half) ** 2))
         np.testing.assert_allclose(columns["hertzian_pressure"], ellipse, atol=1e-5 * height)
     strongest = max(found, key=lambda one: one.pressure.max())
-    assert strongest.pressure.max() == pytest.approx(1e-6 * told["pressure_maximum"], rel=0.03)
-    assert strongest.film.min() == pytest.approx(1e6 * told["film_minimum"], rel=0.2)
-    assert told["film_minimum"] < told["film_at_pressure_maximum"] and told["pressure_resolved"] in (
+    assert strongest.pressure.max() == pytest.approx(1e-6 * reported["pressure_maximum"], rel=0.03)
+    assert strongest.film.min() == pytest.approx(1e6 * reported["film_minimum"], rel=0.2)
+    assert reported["film_minimum"] < reported["film_at_pressure_maximum"] and reported[
+        "pressure_resolved"
+    ] in (
         True,
         False,
     )
-    assert told["central_film"] == pytest.approx(
+    assert reported["central_film"] == pytest.approx(
         1e-6 * np.interp(0.0, strongest.place, strongest.film), rel=0.05
     )
 

@@ -18,11 +18,11 @@ def test_every_line_of_the_page_is_true(repository, rattle, monkeypatch):
     names: dict[str, object] = {}
     for block in blocks:
         for part in re.findall(r"(.*?)((?:^#: [^\n]*\n)+|\Z)", block, re.DOTALL | re.MULTILINE):
-            lines, told = part
+            lines, reported = part
             printed = io.StringIO()
             with redirect_stdout(printed):
                 exec(compile(lines, "scripts/README.md", "exec"), names)
-            expected = "".join(line.removeprefix("#: ") for line in told.splitlines(keepends=True))
+            expected = "".join(line.removeprefix("#: ") for line in reported.splitlines(keepends=True))
             assert printed.getvalue() == expected, lines
 
 

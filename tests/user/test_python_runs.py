@@ -250,7 +250,7 @@ def test_what_is_odd_about_an_input_is_a_python_warning():
     assert fault.line == rattle.solve.text_of(BOX).split("\n").index("   backlash = 0.09") + 1
     again = rattle.solve.text_of(box["far"].result.input)
     assert again.count("&gear\n") == 1 and "backlash = 0.09" in again
-    # Set in both it is told once.
+    # Set in both it is reported once.
     with pytest.warns(rattle.InputWarning) as warned:
         rattle.run(BOX, set={"gear": {"backlash": 0.08}})
     assert len(warned) == 1 and warned[0].message.fault.file == "--set gear.backlash=0.08"

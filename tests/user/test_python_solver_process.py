@@ -44,8 +44,8 @@ def test_twenty_thousand_values_are_taken():
     record = ["film_minimum"]
     result, _ = rattle.campaign({**SCENE, **few}, {"load.force_amplitude": forces}, record=record)
     np.testing.assert_array_equal(result["load.force_amplitude"], forces)
-    told = {"vary": "load.force_amplitude", "values(:,1)": forces, "record": record}
-    same = {**SCENE, **few, "scene": {"task": "campaign"}, "campaign": told}
+    reported = {"vary": "load.force_amplitude", "values(:,1)": forces, "record": record}
+    same = {**SCENE, **few, "scene": {"task": "campaign"}, "campaign": reported}
     again, _ = rattle.run(same)
     np.testing.assert_array_equal(again["film_minimum"], result["film_minimum"])
 

@@ -102,8 +102,8 @@ def test_one_failed_scene_is_enough_for_exit_1(forces, failed, run, scene_text, 
     (tmp_path / "many.nml").write_text(text)
     ended = run("many.nml", cwd=tmp_path)
     assert ended.returncode == failed, ended.stderr
-    told = summary_of(tmp_path / "results" / "many.summary.nml")
-    assert (told["scenes_done"], told["scenes_failed_in_this_run"]) == (2, failed)
+    reported = summary_of(tmp_path / "results" / "many.summary.nml")
+    assert (reported["scenes_done"], reported["scenes_failed_in_this_run"]) == (2, failed)
     assert (
         np.array(package.read_campaign(tmp_path / "results" / "many.rattle")["status"]) > 1.0
     ).sum() == failed

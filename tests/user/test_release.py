@@ -11,12 +11,12 @@ CITATION = "cff-version: 1.2.0\nversion: 0.2.0\ndate-released: 2026-11-24\n"
 TAG = "rattle 0.2.0\n\n- New."
 
 
-def told(version="0.2.0", changelog=CHANGELOG, citation=CITATION, tag=TAG):
+def reported(version="0.2.0", changelog=CHANGELOG, citation=CITATION, tag=TAG):
     return list(check_release.faults(version, changelog, citation, tag))
 
 
 def test_a_release_that_agrees_has_no_fault():
-    assert told() == []
+    assert reported() == []
     assert check_release.tag_text("0.2.0", CHANGELOG) == TAG
 
 
@@ -32,5 +32,5 @@ def test_a_release_that_agrees_has_no_fault():
         ("the message of tag v0.2.0", {"tag": "rattle 0.2.0\n\n- Other."}),
     ),
 )
-def test_each_disagreement_is_told(words, changed):
-    assert any(words in fault for fault in told(**changed))
+def test_each_disagreement_is_reported(words, changed):
+    assert any(words in fault for fault in reported(**changed))

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from outcomes import series_in
 from report_reader import figures, input_of, number, read_page
+from reported import SPOKEN, stated_error
 from result_writer import write_motion, write_result
 from script_calls import call_script
-from told import SPOKEN, stated_error
 
 import rattle
 from rattle import codes
@@ -58,9 +58,9 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_every_number_of_the_summary_stands_on_the_page_as_it_is(motion):
     page, summary = read_page(report(motion)), rattle.read_summary(motion.with_suffix(".summary.nml"))
     held = [float(digits) for digits, _ in page.numbers]
-    told = [name for name in summary if name in codes.QUANTITIES and not isinstance(summary[name], list)]
-    assert len(told) > 30
-    for name in told:
+    reported = [name for name in summary if name in codes.QUANTITIES and not isinstance(summary[name], list)]
+    assert len(reported) > 30
+    for name in reported:
         value, shown = summary[name], page.shown(name)
         if name.endswith("_error"):
             value = stated_error(value, summary.get(name.removesuffix("_error"), 1.0), 6)
@@ -183,16 +183,16 @@ def test_few_words_stand_before_the_first_figure_the_operating_point_first(motio
     forces = {gear: one["film_force_rms"] for gear, one in box["gears"].items()}
     assert [row[0] for row in rows] == sorted(forces, key=forces.get, reverse=True)
     for row in rows:
-        told = rattle.read_summary(tmp_path / f"gearbox.{row[0]}.summary.nml")
-        assert row[1] == told["verdict"]
-        assert number(row[2]) == pytest.approx(told["film_force_rms"], rel=1e-3)
-        counts = [told[f"impacts_per_period_{flank}"] for flank in ("drive", "coast")]
+        reported = rattle.read_summary(tmp_path / f"gearbox.{row[0]}.summary.nml")
+        assert row[1] == reported["verdict"]
+        assert number(row[2]) == pytest.approx(reported["film_force_rms"], rel=1e-3)
+        counts = [reported[f"impacts_per_period_{flank}"] for flank in ("drive", "coast")]
         assert row[3] == " / ".join(f"{count:g}" for count in counts)
-        fastest = max(told[f"impact_velocity_maximum_{flank}"] for flank in ("drive", "coast"))
+        fastest = max(reported[f"impact_velocity_maximum_{flank}"] for flank in ("drive", "coast"))
         assert number(row[4]) == pytest.approx(fastest, rel=1e-2)
-        assert number(row[5]) == pytest.approx(told["inertia_ratio"], rel=1e-3)
+        assert number(row[5]) == pytest.approx(reported["inertia_ratio"], rel=1e-3)
         assert row[6].startswith("numerically verified")
-        assert ("2 motions" in row[6]) == (told["motions"] == 2)
+        assert ("2 motions" in row[6]) == (reported["motions"] == 2)
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -248,7 +248,7 @@ def test_the_class_is_the_one_of_the_summary(motion, word):
 @pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize("regime", ("unknown", "iso-viscous", "piezo-viscous", "elastohydrodynamic"))
 @pytest.mark.parametrize("contradicted", (True, False))
-def test_regime_and_law_are_told_as_the_summary_has_them(motion, regime, contradicted):
+def test_regime_and_law_are_reported_as_the_summary_has_them(motion, regime, contradicted):
     with_summary(motion, film_regime=f"'{regime}'", law_contradicted=f".{contradicted}.".lower())
     verdict = read_page(report(motion)).seen
     found = re.findall(r"\((\S+) regime\)", verdict)
@@ -275,7 +275,7 @@ def test_regime_and_law_are_told_as_the_summary_has_them(motion, regime, contrad
         ("double_sided", ".true.", "crosses its gap"),
     ),
 )
-def test_what_must_be_known_beside_the_class_is_told_only_where_it_is_so(motion, key, value, words):
+def test_what_must_be_known_beside_the_class_is_reported_only_where_it_is_so(motion, key, value, words):
     with_summary(motion, rattle_class="'idle'", stiffness_matters=None, double_sided=None, verdict=None)
     assert words not in read_page(report(motion)).seen
     with_summary(motion, **{key: value})
@@ -549,11 +549,11 @@ def test_lines_are_harmonics_where_there_is_no_shaft(motion):
         ),
     ),
 )
-def test_of_rigid_and_of_elastic_teeth_is_told_what_is_so(solved, share, matters, rigid, elastic):
-    told = {"deflection_share": share, "stiffness_matters": f".{matters}.".lower()}
+def test_of_rigid_and_of_elastic_teeth_is_reported_what_is_so(solved, share, matters, rigid, elastic):
+    reported = {"deflection_share": share, "stiffness_matters": f".{matters}.".lower()}
     hard = next(solved("hard", solver=CALM).glob("*.rattle"))
     (soft,) = series_in(solved("soft", solver=CALM, contact={"stiffness": "1e9"}))
     for path, words, others in ((hard, rigid, elastic), (soft, elastic, rigid)):
-        with_summary(path, **told)
+        with_summary(path, **reported)
         said = " ".join(read_page(report(path)).seen.split())
         assert words in said and others not in said

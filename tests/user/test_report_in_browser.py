@@ -19,7 +19,7 @@ WIDTHS = (1200, 400)
 # The page in a frame of a given width, and how wide its content is then.
 FRAME = """<!DOCTYPE html><meta charset="utf-8"><body style="margin:0">
 <iframe id="page" style="border:0;width:{width}px;height:{height}px" srcdoc="{page}"></iframe>
-<p id="told"></p><script>
+<p id="reported"></p><script>
 onload = () => {{
   const inner = document.getElementById("page").contentDocument;
   const out = [...inner.querySelectorAll("svg, p, h1, h2, pre, .verdict, figcaption")]
@@ -27,8 +27,8 @@ onload = () => {{
     .map(e => e.tagName);
   const root = inner.documentElement;
   const type = parseFloat(getComputedStyle(inner.body).fontSize);
-  document.getElementById("told").textContent =
-    `told: ${{root.scrollWidth}} ${{root.scrollHeight}} ${{type}} [${{out}}]`;
+  document.getElementById("reported").textContent =
+    `reported: ${{root.scrollWidth}} ${{root.scrollHeight}} ${{type}} [${{out}}]`;
 }};
 </script>"""
 
@@ -76,11 +76,11 @@ def page(tmp_path_factory, repository, run) -> Path:
 def test_nothing_is_wider_than_the_window(page, width):
     frame = page.with_name(f"frame_{width}.html")
     frame.write_text(FRAME.format(width=width, height=3000, page=html.escape(page.read_text())))
-    told = re.search(r"told: (\d+) (\d+) ([\d.]+) \[(.*?)\]", browse(frame, "--dump-dom"))
-    assert told, "the page did not load"
-    assert int(told[1]) <= width and told[4] == ""
-    assert int(told[2]) > 3000  # long, as a page of three results is
-    assert float(told[3]) >= 15.0
+    reported = re.search(r"reported: (\d+) (\d+) ([\d.]+) \[(.*?)\]", browse(frame, "--dump-dom"))
+    assert reported, "the page did not load"
+    assert int(reported[1]) <= width and reported[4] == ""
+    assert int(reported[2]) > 3000  # long, as a page of three results is
+    assert float(reported[3]) >= 15.0
 
 
 @pytest.mark.parametrize("width", WIDTHS)
@@ -127,11 +127,11 @@ def test_few_sheets_come_before_the_appendix(name, most, changes, repository, ru
     )
     assert ended.returncode == 0, ended.stderr
     results = [path for path in sorted(tmp_path.glob(f"{name}*.rattle")) if "motions" not in path.name]
-    told = []
+    reported = []
     for options in ((), ("--brief",)):
-        pdf = tmp_path / f"page{len(told)}.pdf"
+        pdf = tmp_path / f"page{len(reported)}.pdf"
         done = call_script("report.py", *results, *options, "--overwrite", "--output", tmp_path, "--pdf", pdf)
         assert done.returncode == 0, done.stderr
-        told.append(sheets(pdf))
-    assert 1 <= told[1] <= most
-    assert told[1] < told[0]
+        reported.append(sheets(pdf))
+    assert 1 <= reported[1] <= most
+    assert reported[1] < reported[0]

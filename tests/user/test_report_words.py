@@ -108,7 +108,7 @@ def test_scenes_that_failed_or_are_not_done_are_in_no_range_and_no_worst(counted
 
 
 @pytest.mark.long
-def test_a_share_of_a_line_is_told_in_per_cent(solved) -> None:
+def test_a_share_of_a_line_is_reported_in_per_cent(solved) -> None:
     result = (
         solved("calm", solver=CALM, spectrum={"harmonic_threshold": "0.035", "idle_harmonics": "9"})
         / "calm.rattle"
@@ -131,12 +131,12 @@ def test_every_line_of_a_motion_stands_beside_its_own_error(solved) -> None:
         text = text.replace("&summary\n", f"&summary\n   {name} = {', '.join(map(str, values))}\n", 1)
     path.write_text(text)
     (shown,) = [table for table in read_page(report(result)).tables if table[0][0] == "Harmonic"]
-    told = [(int(row[0]), number(row[1]), number(row[2])) for row in shown[1:]]
-    assert told == [(place + 1, lines[place], errors[place]) for place in range(12)]
+    reported = [(int(row[0]), number(row[1]), number(row[2])) for row in shown[1:]]
+    assert reported == [(place + 1, lines[place], errors[place]) for place in range(12)]
 
 
 @pytest.mark.long
-def test_as_many_periods_are_told_as_are_drawn(solved) -> None:
+def test_as_many_periods_are_reported_as_are_drawn(solved) -> None:
     for periods in (2, 12):
         result = solved(f"of_{periods}", solver={"periods": str(periods)}) / f"of_{periods}.rattle"
         repeats = rattle.read(result).orbit_period
@@ -161,18 +161,18 @@ def test_every_sentence_on_thresholds_is_that_of_the_rows(tmp_path: Path) -> Non
     ]
     result = written(tmp_path / "edge.rattle", rows)
     found = threshold_report.picture.thresholds(result)
-    told = list(threshold_report.sentences_on(found, {"scenes": 30, "scenes_of_a_grid": 600.0}))
-    assert told[0].startswith(
+    reported = list(threshold_report.sentences_on(found, {"scenes": 30, "scenes_of_a_grid": 600.0}))
+    assert reported[0].startswith(
         "Looked for: change of class, along the force amplitude from 5 N to 100 N, on 4"
     )
-    assert told[1:4] == [
+    assert reported[1:4] == [
         "From quiet to creep: 3 times, between 21.5 N and 41 N.",
         "From creep to idle: at 71 N.",
         "1 of 4 traces have no threshold in this range.",
     ]
-    assert told[4].startswith("At 3 of 4 thresholds both ends are verified: ")
-    assert "solved in 33 places" in told[5] and "the widest that is left is 8 N." in told[5]
-    assert told[6] == "It took 30 scenes; a grid as fine has 20 times as many."
+    assert reported[4].startswith("At 3 of 4 thresholds both ends are verified: ")
+    assert "solved in 33 places" in reported[5] and "the widest that is left is 8 N." in reported[5]
+    assert reported[6] == "It took 30 scenes; a grid as fine has 20 times as many."
     page = read_page(report(result.path))
     (kinds,) = [table for table in page.tables if table[0][0] == "From, to"]
     assert [[row[0], row[1], number(row[2]), number(row[3]), row[4]] for row in kinds[1:]] == [

@@ -29,45 +29,49 @@ GEAR = """&gear
     (("constant", 242.4, 0.684e-6), ("roelands", 251.0, 1.914e-6)),
 )
 def test_the_load_of_the_paper(law: str, peak: float, film: float, repository: Path) -> None:
-    """Steady motions of an independent program, whose last digits are told."""
+    """Steady motions of an independent program, whose last digits are reported."""
     scene = repository / "input" / "elastohydrodynamic.nml"
     settings = {
         "film.model": "resolved",
         "lubricant.viscosity_law": law,
     }
-    told = package.run(scene, set=settings).summary
-    assert told["verification"] == "verified" and told["status"] == "steady" and told["harmonic_count"] == 6
-    assert told["acceleration_maximum"] == pytest.approx(peak, rel=1e-3)
-    assert told["film_minimum"] == pytest.approx(film, rel=4e-3)
+    reported = package.run(scene, set=settings).summary
+    assert (
+        reported["verification"] == "verified"
+        and reported["status"] == "steady"
+        and reported["harmonic_count"] == 6
+    )
+    assert reported["acceleration_maximum"] == pytest.approx(peak, rel=1e-3)
+    assert reported["film_minimum"] == pytest.approx(film, rel=4e-3)
 
 
 def test_few_nodes_are_within_their_error_of_more(repository: Path) -> None:
     """The smallest film of 24 nodes is off by 0.3 %, which a tighter tolerance alone would not show."""
-    told = {}
+    reported = {}
     for nodes in (24, 64):
         settings = {"film.model": "resolved", "film.nodes": nodes, "lubricant.viscosity_law": "constant"}
-        told[nodes] = package.run(repository / "input" / "elastohydrodynamic.nml", set=settings).summary
+        reported[nodes] = package.run(repository / "input" / "elastohydrodynamic.nml", set=settings).summary
     for name in ("film_minimum", "acceleration_maximum"):
-        errors = told[24][f"{name}_error"] + told[64][f"{name}_error"]
-        assert abs(told[24][name] - told[64][name]) <= errors, name
-    pressures = [told[nodes]["pressure_maximum"] for nodes in (24, 64)]
-    errors = told[24]["pressure_error"] + told[64]["pressure_error"]
+        errors = reported[24][f"{name}_error"] + reported[64][f"{name}_error"]
+        assert abs(reported[24][name] - reported[64][name]) <= errors, name
+    pressures = [reported[nodes]["pressure_maximum"] for nodes in (24, 64)]
+    errors = reported[24]["pressure_error"] + reported[64]["pressure_error"]
     assert abs(pressures[0] / pressures[1] - 1.0) <= errors
 
 
 def test_a_gear_is_near_its_closure_and_within_its_errors() -> None:
     solved = package.run(GEAR)
-    told, series = solved.summary, solved.result
-    assert told["verification"] == "verified" and told["status"] == "steady"
-    assert "with twice the nodes and a tighter tolerance agrees" in told["verification_text"]
+    reported, series = solved.summary, solved.result
+    assert reported["verification"] == "verified" and reported["status"] == "steady"
+    assert "with twice the nodes and a tighter tolerance agrees" in reported["verification_text"]
     finer = package.run(GEAR, set={"solver.accuracy": 1e-3}).summary
     for name in ("acceleration_maximum", "acceleration_minimum", "film_minimum", "film_maximum"):
-        assert abs(told[name] - finer[name]) <= told[f"{name}_error"] + finer[f"{name}_error"], name
+        assert abs(reported[name] - finer[name]) <= reported[f"{name}_error"] + finer[f"{name}_error"], name
     closure = package.run(GEAR, set={"film.model": "closure", "solver.starts": 1}).summary
-    assert told["acceleration_maximum"] == pytest.approx(closure["acceleration_maximum"], rel=0.02)
-    assert told["film_minimum"] == pytest.approx(closure["film_minimum"], rel=0.05)
-    assert told["verdict"] == closure["verdict"] and told["rattle_class"] == closure["rattle_class"]
-    assert "closure_range" not in told and "motions" not in told
+    assert reported["acceleration_maximum"] == pytest.approx(closure["acceleration_maximum"], rel=0.02)
+    assert reported["film_minimum"] == pytest.approx(closure["film_minimum"], rel=0.05)
+    assert reported["verdict"] == closure["verdict"] and reported["rattle_class"] == closure["rattle_class"]
+    assert "closure_range" not in reported and "motions" not in reported
     # The rows obey the equation of motion, and the gear is where its flanks leave it.
     net = series["film_load"] - series["coast_load"] - series["applied_force"]
     mass = np.linalg.lstsq(series["acceleration"][:, None], net, rcond=None)[0][0]
@@ -123,16 +127,18 @@ def test_a_run_until_steady_that_is_carried_on_is_that_of_one_long_run(
     """To the last bit: what the search looks back on is carried on; of what was found steady the periodic
     motion alone is solved again."""
     (tmp_path / "one.nml").write_text(FAST.replace("force_amplitude = 20.0", force))
-    told = []
+    reported = []
     for folder, parts in (("whole", counts[-1:]), ("parts", counts)):
         for count in parts:
             changes = (f"solver.periods={count}", "spectrum.periods=2", "spectrum.verify=false")
             settings = [word for change in changes for word in ("--set", change)]
             ended = run(*settings, "--resume", "--output", folder, "one.nml", cwd=tmp_path)
             assert ended.returncode == 0, ended.stderr
-        told.append(summary_of(tmp_path / folder / "one.summary.nml"))
+        reported.append(summary_of(tmp_path / folder / "one.summary.nml"))
     assert (
-        told[0]["status"] == "steady" and "carried on from" in ended.stdout or "found steady" in ended.stdout
+        reported[0]["status"] == "steady"
+        and "carried on from" in ended.stdout
+        or "found steady" in ended.stdout
     )
     for name in (
         "periods_solved",
@@ -142,7 +148,7 @@ def test_a_run_until_steady_that_is_carried_on_is_that_of_one_long_run(
         "steps",
         "evaluations",
     ):
-        assert told[0][name] == told[1][name], name
+        assert reported[0][name] == reported[1][name], name
     for ending in ("rattle", "state"):
         whole, parts = (tmp_path / folder / f"one.{ending}" for folder in ("whole", "parts"))
         assert whole.read_bytes() == parts.read_bytes(), ending
@@ -164,27 +170,27 @@ def test_multipliers_are_what_deviations_decay_by(repository: Path) -> None:
         "output.columns": ["time", "film_thickness", "squeeze_velocity"],
     }
     solved = package.run(scene, set=settings)
-    told = multipliers_of(solved.summary)
+    reported = multipliers_of(solved.summary)
     ends = np.array([solved.result[name][::64] for name in ("film_thickness", "squeeze_velocity")])
     steps = np.diff(ends / np.abs(ends).max(axis=1)[:, None], axis=1)
     # Steps of a linear map: d(n + 2) = 2 Re(m) d(n + 1) - |m|^2 d(n). Before period 30 bounces still change
     # in kind; at period 55 deviations have fallen to 2e-5, near the errors of steps: what is seen in the two
-    # windows differs by 1.2e-3. What is told moves by 1.3e-3 where films of the closure change in their last
+    # windows differs by 1.2e-3. Quantities move by 1.3e-3 where films of the closure change in their last
     # bits, and with them the steps of the nodes. Both together are the tolerance.
     for first in (30, 35):
         here = steps[:, first : first + 20]
         before = np.concatenate([np.stack([line[1:-1], line[:-2]], axis=1) for line in here])
         factors = np.linalg.lstsq(before, np.concatenate([line[2:] for line in here]), rcond=None)[0]
         seen = max(np.roots([1.0, -factors[0], -factors[1]]), key=lambda root: root.imag)
-        assert abs(seen - told[0]) < 2.5e-3, (first, seen, told)
-    assert told[0] == np.conj(told[1]) and solved.summary["orbit_stability"] == "stable"
+        assert abs(seen - reported[0]) < 2.5e-3, (first, seen, reported)
+    assert reported[0] == np.conj(reported[1]) and solved.summary["orbit_stability"] == "stable"
     closure = {"lubricant.viscosity_law": "constant", "solver.starts": 1, "spectrum.verify": True}
-    assert abs(multipliers_of(package.run(scene, set=closure).summary)[0] - told[0]) < 0.02
+    assert abs(multipliers_of(package.run(scene, set=closure).summary)[0] - reported[0]) < 0.02
 
 
-def multipliers_of(told: dict) -> np.ndarray:
+def multipliers_of(reported: dict) -> np.ndarray:
     """Floquet multipliers of a summary, whose real and imaginary parts stand in turn."""
-    parts = np.array(told["floquet_multipliers"])
+    parts = np.array(reported["floquet_multipliers"])
     return parts[::2] + 1j * parts[1::2]
 
 
@@ -199,25 +205,32 @@ FAST = """&contact radius = 9.1e-3, length = 0.019, backlash = 110.0e-6, stiffne
 
 def test_a_motion_of_three_periods_and_an_irregular_one() -> None:
     """Both are as the closure has them; one that does not repeat has an exponent, and no multipliers."""
-    told = package.run(FAST).summary
-    assert told["rattle_class"] == "subharmonic" and told["orbit_period"] == 3 and "orbit_text" not in told
-    assert told["orbit_stability"] == "stable" and 0.6 < abs(multipliers_of(told)[0]) < 0.8
-    told = package.run(FAST, set={"load.frequency": 196.0, "spectrum.periods": 8}).summary
-    assert told["rattle_class"] == "irregular" and told["verification"] == "verified"
-    assert 0.3 < told["lyapunov_exponent"] < 0.65
-    assert told["orbit_text"].startswith("no Floquet multipliers: ") and "floquet_multipliers" not in told
+    reported = package.run(FAST).summary
+    assert (
+        reported["rattle_class"] == "subharmonic"
+        and reported["orbit_period"] == 3
+        and "orbit_text" not in reported
+    )
+    assert reported["orbit_stability"] == "stable" and 0.6 < abs(multipliers_of(reported)[0]) < 0.8
+    reported = package.run(FAST, set={"load.frequency": 196.0, "spectrum.periods": 8}).summary
+    assert reported["rattle_class"] == "irregular" and reported["verification"] == "verified"
+    assert 0.3 < reported["lyapunov_exponent"] < 0.65
+    assert (
+        reported["orbit_text"].startswith("no Floquet multipliers: ")
+        and "floquet_multipliers" not in reported
+    )
 
 
 def test_what_no_time_is_left_for_is_said() -> None:
     """A run whose time is over with its last period is judged, but neither verified nor followed."""
     one = {"solver.until": "periods", "solver.periods": 1, "spectrum.periods": 1, "solver.time_limit": 1e-9}
-    told = package.run(FAST, set=one).summary
-    assert told["status"] == "complete" and np.isfinite(told["acceleration_rms"])
-    assert told["verification"] != "verified"
-    assert told["verification_text"] == "The second solution ended as time_limit."
-    assert "solver.time_limit was over" in told["orbit_text"]
-    told = package.run(FAST, set=one | {"solver.time_limit": 600.0}).summary
-    assert "time_limit" not in told["verification_text"] + told.get("orbit_text", "")
+    reported = package.run(FAST, set=one).summary
+    assert reported["status"] == "complete" and np.isfinite(reported["acceleration_rms"])
+    assert reported["verification"] != "verified"
+    assert reported["verification_text"] == "The second solution ended as time_limit."
+    assert "solver.time_limit was over" in reported["orbit_text"]
+    reported = package.run(FAST, set=one | {"solver.time_limit": 600.0}).summary
+    assert "time_limit" not in reported["verification_text"] + reported.get("orbit_text", "")
 
 
 THICK = """&contact radius = 0.0136, length = 0.0098, stiffness = 1.37e8 /
@@ -232,9 +245,9 @@ THICK = """&contact radius = 0.0136, length = 0.0098, stiffness = 1.37e8 /
 
 def test_a_loaded_contact_in_thick_oil_starts() -> None:
     """At M = 1, L = 19 a closure has its least film, and no load of its film at rest; nodes start."""
-    told = [package.run(THICK, set={"film.nodes": nodes}).summary for nodes in (32, 64)]
-    assert told[0]["film_minimum"] == pytest.approx(told[1]["film_minimum"], rel=5e-3)
-    assert told[0]["acceleration_maximum"] == pytest.approx(told[1]["acceleration_maximum"], rel=3e-2)
+    reported = [package.run(THICK, set={"film.nodes": nodes}).summary for nodes in (32, 64)]
+    assert reported[0]["film_minimum"] == pytest.approx(reported[1]["film_minimum"], rel=5e-3)
+    assert reported[0]["acceleration_maximum"] == pytest.approx(reported[1]["acceleration_maximum"], rel=3e-2)
 
 
 CALM = """&contact radius = 9.1e-3, length = 0.019, stiffness = 2.4e8 /
@@ -283,15 +296,15 @@ def test_flattening_counts_alike_in_all_films() -> None:
 def test_a_motion_of_three_periods_settles_by_its_multiplier(model: str) -> None:
     """By nodes more slowly than by the closure: each model's own deviations decay by what it tells."""
     settings = {"film.model": model, "solver.starts": 1} if model == "closure" else {}
-    told = multipliers_of(package.run(FAST, set=settings).summary)
+    reported = multipliers_of(package.run(FAST, set=settings).summary)
     followed = {"solver.until": "periods", "solver.periods": 81, "solver.samples_per_period": 64}
     shown = {"spectrum.periods": 51, "spectrum.verify": False, "output.columns": ["time", "gear_position"]}
     solved = package.run(FAST, set=settings | followed | shown).result
     steps = np.diff(solved["gear_position"][::192])
     seen = np.median(steps[6:] / steps[5:-1])
     # 17 cycles of three periods; the accuracy of nodes is 1e-3, and what a film is off by grows with impacts:
-    # multipliers are told by ten times finer steps, -0.7205, and deviations decay by -0.7505 in 32 nodes.
-    assert told[0].imag == 0.0 and seen == pytest.approx(told[0].real, rel=0.05)
+    # multipliers are reported by ten times finer steps, -0.7205, and deviations decay by -0.7505 in 32 nodes.
+    assert reported[0].imag == 0.0 and seen == pytest.approx(reported[0].real, rel=0.05)
     assert (-0.8 < seen < -0.68) == (model == "resolved")
 
 
@@ -327,13 +340,15 @@ def test_a_stop_tells_when_where_and_under_which_load(run, tmp_path: Path) -> No
     (tmp_path / "heavy.nml").write_text(HEAVY)
     ended = run("--output", "out", "heavy.nml", cwd=tmp_path)
     assert ended.returncode == 1, ended.stderr
-    told = summary_of(tmp_path / "out/heavy.summary.nml")
-    assert told["status"] == "film_cycles" and told["film_at_status_time"] > 0.0
+    reported = summary_of(tmp_path / "out/heavy.summary.nml")
+    assert reported["status"] == "film_cycles" and reported["film_at_status_time"] > 0.0
     stop = re.search(
         r"film_cycles at t = (\S+) s, film \S+ um on the (drive|coast) flank under M = (\S+): .*64 nodes",
         ended.stdout,
     )
-    assert stop and float(stop[1]) == pytest.approx(told["status_time"], rel=1e-4) and float(stop[3]) > 5.0
+    assert (
+        stop and float(stop[1]) == pytest.approx(reported["status_time"], rel=1e-4) and float(stop[3]) > 5.0
+    )
     light = HEAVY.replace(", nodes = 24", "").replace("resolved", "closure")
     assert package.run(light, set={"solver.starts": 1}).summary["status"] == "complete"
 

@@ -48,13 +48,13 @@ def test_restitution_is_that_of_a_motion_solved_by_other_means(name: str, run, t
     _, states, loads = true_window(tooth, result, first, periods, 16000 if name == "R4" else 4000)
     force = largest_force(tooth)
     for flank in range(1 if tooth.backlash is None else 2):
-        told = f"restitution_{flanks[flank]}"
+        reported = f"restitution_{flanks[flank]}"
         if loads[:, flank].max() < 1.5 * force:
-            assert told not in summary
+            assert reported not in summary
             continue
         toward = -states[:, 1] if flank == 0 else states[:, 1]
         # Half the square of the steps, a thousandth of an impact each, is what straight lines miss.
-        assert summary[told] == pytest.approx(restitution(loads[:, flank], toward, force), abs=1e-4)
+        assert summary[reported] == pytest.approx(restitution(loads[:, flank], toward, force), abs=1e-4)
 
 
 # --- tests/measured ---------------------------------------------------------------------------------------

@@ -164,7 +164,7 @@ def test_run_that_ended_among_its_extreme_rows(tmp_path):
         assert result.extremes["time"].size == 0
 
 
-def test_header_fields_are_told(tmp_path):
+def test_header_fields_are_reported(tmp_path):
     result = rattle.read(write_result(tmp_path / "a.rattle", COLUMNS, ROWS, program_version="1.2.3"))
     assert result.program_version == "1.2.3"
     assert dict(result.units) == dict(COLUMNS)

@@ -15,7 +15,7 @@ import rattle as package
 sys.path.insert(0, str(Path(__file__).parents[1] / "stress"))
 
 import gear_rows
-import told_alike
+import reported_alike
 
 QUANTITIES = (
     "film_minimum",
@@ -60,8 +60,8 @@ def test_windows_are_the_same(until: str, periods: int, run, scene_text, tmp_pat
         assert ended.returncode == 0, ended.stderr
         alone = summary_of(tmp_path / "results" / "one.summary.nml")
         assert alone["window_periods"] == 5
-        told = {name: alone[name] for name in QUANTITIES}
-        assert {name: rows[name][row] for name in QUANTITIES} == told
+        reported = {name: alone[name] for name in QUANTITIES}
+        assert {name: rows[name][row] for name in QUANTITIES} == reported
         assert [rows[f"harmonic_{n}"][row] for n in range(1, 9)] == alone["harmonics"][:8]
 
 
@@ -81,8 +81,8 @@ def test_a_row_without_a_rigid_film_knows_its_regime(run, scene_text, tmp_path: 
     assert run("many.nml", cwd=tmp_path).returncode == 1
     assert run("one.nml", cwd=tmp_path).returncode == 1
     alone = summary_of(tmp_path / "results" / "one.summary.nml")
-    told = (alone["status"], alone["film_regime"], alone["law_contradicted"])
-    assert told == ("no_rigid_film", "elastohydrodynamic", True)
+    reported = (alone["status"], alone["film_regime"], alone["law_contradicted"])
+    assert reported == ("no_rigid_film", "elastohydrodynamic", True)
     rows = package.read_campaign(tmp_path / "results" / "many.rattle")
     assert list(rows["status"]) == [4.0, 4.0]
     assert list(rows["film_regime"]) == [3.0, 3.0] and list(rows["law_contradicted"]) == [1.0, 1.0]
@@ -153,19 +153,19 @@ def test_summary_row_and_value_are_the_same(
         f"&sweep key = 'force_amplitude', first = {force!r}, last = {1.01 * force!r}, count = 2 /"
     )
     without = re.sub(r"until = '\w+', starts = \d+, ", "", shared)
-    (tmp_path / "many.nml").write_text(told_alike.input_text(shared, scene, campaign))
-    (tmp_path / "one.nml").write_text(told_alike.input_text(shared, scene, ""))
-    (tmp_path / "swept.nml").write_text(told_alike.input_text(without, scene, sweep))
+    (tmp_path / "many.nml").write_text(reported_alike.input_text(shared, scene, campaign))
+    (tmp_path / "one.nml").write_text(reported_alike.input_text(shared, scene, ""))
+    (tmp_path / "swept.nml").write_text(reported_alike.input_text(without, scene, sweep))
     for name in ("many", "one", "swept"):
         ended = run(f"{name}.nml", cwd=tmp_path)
         assert ended.returncode == 0, ended.stderr
-    alone = told_alike.numbers_of(package.read_summary(tmp_path / "results" / "one.summary.nml"))
+    alone = reported_alike.numbers_of(package.read_summary(tmp_path / "results" / "one.summary.nml"))
     rows = package.read_campaign(tmp_path / "results" / "many.rattle")
     row = {name: float(rows[name][0]) for name in rows.names if name not in scene}
     assert {"motions", "loudest_acceleration_rms", "unsettled_starts"} <= alone.keys() & row.keys()
     assert alone["starts_solved"] == row["starts_solved"] == starts
-    assert list(told_alike.compared(alone, row, told_alike.ROW, "the row")) == []
+    assert list(reported_alike.compared(alone, row, reported_alike.ROW, "the row")) == []
     if until == "steady":
         values = package.read(tmp_path / "results" / "swept.rattle")
         first = {name: float(values[name][0]) for name in values.names[1:]}
-        assert list(told_alike.compared(alone, first, told_alike.SWEEP, "the value")) == []
+        assert list(reported_alike.compared(alone, first, reported_alike.SWEEP, "the value")) == []

@@ -118,7 +118,7 @@ def test_standard_errors_are_those_of_the_noise() -> None:
         assert 0.6 < np.sqrt(np.mean((off / found.errors[:, place]) ** 2)) < 1.5
 
 
-def test_close_orders_are_told_apart_on_request() -> None:
+def test_close_orders_are_distinguished_on_request() -> None:
     """Orders 2 and 2.2, the latter with a resonance of its own."""
     orders = dict(ENGINE) | {2.2: lambda n: resonance(n, 2200.0, 0.1, 30.0, 60.0 * np.exp(1j))}
     truth = Truth(orders=orders)
@@ -218,9 +218,13 @@ def test_rattle_takes_the_table_as_it_was_meant(speed: float, measured: Path, ra
     )
     forces = []
     for name in ("pair.nml", "speeds.nml"):
-        told = subprocess.run([rattle, "--check", name], cwd=measured, capture_output=True, text=True).stdout
+        reported = subprocess.run(
+            [rattle, "--check", name], cwd=measured, capture_output=True, text=True
+        ).stdout
         sizes, phases = (
-            list(map(float, re.findall(rf"load.force_{key} = (.*?)(?: N| rad)$", told, re.M)[0].split(",")))
+            list(
+                map(float, re.findall(rf"load.force_{key} = (.*?)(?: N| rad)$", reported, re.M)[0].split(","))
+            )
             for key in ("amplitudes", "phases")
         )
         forces.append(np.array(sizes)[:2] * np.exp(1j * np.array(phases)[:2]))

@@ -72,13 +72,13 @@ def test_indices_of_a_product(run, tmp_path: Path) -> None:
         "load.force_scale": (force * mean**2 / whole, force * square / whole),
         "gear.backlash": (0.0, 0.0),
     }
-    told = table_of(said, "inertia_ratio")
-    assert list(told) == list(expected)
+    reported = table_of(said, "inertia_ratio")
+    assert list(reported) == list(expected)
     for key, (first, total) in expected.items():
         # Intervals of 95 %: estimates of this one seed lie within one and a half of them.
-        assert abs(told[key][0] - first) <= 1.5 * told[key][1] + 5e-4, key
-        assert abs(told[key][2] - total) <= 1.5 * told[key][3] + 5e-4, key
-        assert told[key][1] < 0.35 and told[key][3] < 0.35
+        assert abs(reported[key][0] - first) <= 1.5 * reported[key][1] + 5e-4, key
+        assert abs(reported[key][2] - total) <= 1.5 * reported[key][3] + 5e-4, key
+        assert reported[key][1] < 0.35 and reported[key][3] < 0.35
     assert sorted(path.name for path in (tmp_path / "figures").iterdir()) == [
         "sensitivity_pair_design.pdf",
         "sensitivity_pair_design.png",
@@ -100,7 +100,7 @@ def test_the_design_fills_its_ranges(run, tmp_path: Path) -> None:
     assert np.mean(np.array(campaign["gear.drag_scale"]) < 1.0) == pytest.approx(0.5, abs=0.1)
 
 
-def test_size_means_scenes_and_is_told_before(tmp_path: Path) -> None:
+def test_size_means_scenes_and_is_reported_before(tmp_path: Path) -> None:
     """size = 64 has room for 8 blocks of 5 scenes; --blocks comes before it; without both there are 256."""
     for more, arguments, blocks in (
         ("size = 64", (), 8),
@@ -122,7 +122,7 @@ def test_size_means_scenes_and_is_told_before(tmp_path: Path) -> None:
     assert code == 2 and "write size = 10 at least, or give --blocks" in complained
 
 
-def test_the_scenes_of_all_pairs_are_told(repository: Path, tmp_path: Path) -> None:
+def test_the_scenes_of_all_pairs_are_reported(repository: Path, tmp_path: Path) -> None:
     path = tmp_path / "box.nml"
     path.write_text((repository / "input" / "gearbox_tolerances.nml").read_text())
     code, _, complained = called_here("sensitivity.py", "design", path, "--blocks", 2, cwd=tmp_path)

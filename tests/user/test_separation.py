@@ -141,21 +141,21 @@ def test_impacts_are_those_of_a_motion_solved_by_other_means(name: str, run, tmp
     (tmp_path / "tooth.nml").write_text(text_of(tooth))
     ended = run("tooth.nml", cwd=tmp_path)
     assert ended.returncode == 0, ended.stderr
-    told = summary_of(tmp_path / "results" / "tooth.summary.nml")
+    reported = summary_of(tmp_path / "results" / "tooth.summary.nml")
     result = rattle.read(tmp_path / "results" / "tooth.rattle")
-    periods = told["window_periods"]
-    first = (told["periods_solved"] - periods) * 512
-    begin = (told["periods_solved"] - periods) / tooth.frequency
+    periods = reported["window_periods"]
+    first = (reported["periods_solved"] - periods) * 512
+    begin = (reported["periods_solved"] - periods) / tooth.frequency
     times, states, loads = true_window(tooth, result, first, periods, 16000 if name == "R4" else 4000)
 
     force = largest_force(tooth)
     static = abs(tooth.steady_force + tooth.mass * tooth.gravity)
     net = loads[:, 0] - loads[:, 1]
-    assert told["reversal"] is bool(net.min() < 0.0 < net.max())
+    assert reported["reversal"] is bool(net.min() < 0.0 < net.max())
     share = share_below(times, loads[:, 0], 0.01 * (static or force))
-    assert told["unloaded_share"] == pytest.approx(share, abs=1e-6)
-    assert told["separation"] is (told["reversal"] or share > 0.0)
-    assert told["impact_periods"] == periods
+    assert reported["unloaded_share"] == pytest.approx(share, abs=1e-6)
+    assert reported["separation"] is (reported["reversal"] or share > 0.0)
+    assert reported["impact_periods"] == periods
     counts = []
     flanks = ("drive",) if tooth.backlash is None else ("drive", "coast")
     for flank, column, toward in zip(flanks, (0, 1), (-1.0, 1.0), strict=False):
@@ -164,10 +164,10 @@ def test_impacts_are_those_of_a_motion_solved_by_other_means(name: str, run, tmp
             impact._replace(time=impact.time % (periods / tooth.frequency)) for impact in impacts
         )
         counts.append(len(impacts))
-        assert told[f"impacts_{flank}"] == len(impacts)
-        assert told[f"impacts_per_period_{flank}"] == len(impacts) / periods
+        assert reported[f"impacts_{flank}"] == len(impacts)
+        assert reported[f"impacts_per_period_{flank}"] == len(impacts) / periods
         lists = {
-            key: np.atleast_1d(told.get(f"impact_{key}_{flank}", []))
+            key: np.atleast_1d(reported.get(f"impact_{key}_{flank}", []))
             for key in ("times", "loads", "velocities", "impulses")
         }
         # The other solution has 4000 points a period; of R4, whose impacts are short, 16000.
@@ -176,12 +176,12 @@ def test_impacts_are_those_of_a_motion_solved_by_other_means(name: str, run, tmp
         assert lists["velocities"] == pytest.approx([i.velocity for i in impacts], rel=2e-5)
         assert lists["impulses"] == pytest.approx([i.impulse for i in impacts], rel=1e-5)
         for key, lot in (("load", "loads"), ("velocity", "velocities"), ("impulse", "impulses")):
-            assert told[f"impact_{key}_maximum_{flank}"] == max(lists[lot], default=0.0)
+            assert reported[f"impact_{key}_maximum_{flank}"] == max(lists[lot], default=0.0)
         mean = sum(lists["impulses"]) / max(1, len(impacts))
-        assert told[f"impact_impulse_mean_{flank}"] == pytest.approx(mean, rel=1e-14)
-    assert told["verdict"] == VERDICTS[name]
-    assert told.get("double_sided") == (None if len(counts) == 1 else all(counts))
-    assert told["verdict_verified"] is True and told["impacts_verified"] is True
+        assert reported[f"impact_impulse_mean_{flank}"] == pytest.approx(mean, rel=1e-14)
+    assert reported["verdict"] == VERDICTS[name]
+    assert reported.get("double_sided") == (None if len(counts) == 1 else all(counts))
+    assert reported["verdict_verified"] is True and reported["impacts_verified"] is True
 
 
 QUANTITIES = [
@@ -223,17 +223,17 @@ def test_a_row_tells_what_the_summary_tells(name: str, run, tmp_path: Path) -> N
     for scene in ("tooth.nml", "rows.nml"):
         ended = run(scene, cwd=tmp_path)
         assert ended.returncode == 0, ended.stderr
-    told = summary_of(tmp_path / "results" / "tooth.summary.nml")
+    reported = summary_of(tmp_path / "results" / "tooth.summary.nml")
     rows = rattle.read_campaign(tmp_path / "results" / "rows.rattle")
-    assert told["verdict"] == VERDICTS[name]
+    assert reported["verdict"] == VERDICTS[name]
     for quantity in QUANTITIES:
         value = rows[quantity][0]
-        if quantity not in told:
+        if quantity not in reported:
             assert np.isnan(value), quantity
         elif quantity == "verdict":
-            assert WORDS[int(value)] == told[quantity]
+            assert WORDS[int(value)] == reported[quantity]
         else:
-            assert value == float(told[quantity]), quantity
+            assert value == float(reported[quantity]), quantity
 
 
 def test_a_higher_limit_leaves_fewer_impacts(run, tmp_path: Path) -> None:
@@ -250,10 +250,10 @@ def test_a_higher_limit_leaves_fewer_impacts(run, tmp_path: Path) -> None:
         text = text_of(scene).replace("&spectrum", f"&spectrum impact_limit = {limit!r},")
         (tmp_path / "tooth.nml").write_text(text)
         assert run("tooth.nml", "--overwrite", cwd=tmp_path).returncode == 0
-        told = summary_of(tmp_path / "results" / "tooth.summary.nml")
-        assert (told["impacts_per_period_drive"], told["impacts_per_period_coast"]) == (drive, coast)
-        assert told["double_sided"] is (drive > 0 and coast > 0)
-        verdicts[(drive, coast)] = told["verdict"]
+        reported = summary_of(tmp_path / "results" / "tooth.summary.nml")
+        assert (reported["impacts_per_period_drive"], reported["impacts_per_period_coast"]) == (drive, coast)
+        assert reported["double_sided"] is (drive > 0 and coast > 0)
+        verdicts[(drive, coast)] = reported["verdict"]
     assert verdicts[(0, 1)] == "single-sided impacts" and verdicts[(0, 0)] == "separation"
     (tmp_path / "tooth.nml").write_text(text_of(scene).replace("&spectrum", "&spectrum impact_limit = 1.0,"))
     assert run("--check", "tooth.nml", cwd=tmp_path).returncode == 2
@@ -309,6 +309,6 @@ def test_newmarks_samples_tell_the_same_impacts(run, tmp_path: Path) -> None:
     for quantity in ("load_maximum", "velocity_maximum", "impulse_maximum", "impulse_mean"):
         key = f"impact_{quantity}_drive"
         assert second[key] == pytest.approx(first[key], rel=1e-4), quantity
-    turns = [np.mod(np.array(told["impact_times_drive"]) * 600.0, 1.0) for told in lists]
+    turns = [np.mod(np.array(reported["impact_times_drive"]) * 600.0, 1.0) for reported in lists]
     assert turns[1] == pytest.approx(np.full(4, turns[0][0]), abs=2e-4)
     assert second["unloaded_share"] == first["unloaded_share"] == 0.0

@@ -79,7 +79,7 @@ def test_closed_input_is_no_file(by_shell) -> None:
 
 
 @pytest.mark.parametrize("after", ["2>&-", "2>/dev/full"])
-def test_the_exit_code_does_where_no_fault_can_be_told(after: str, by_shell, tmp_path: Path) -> None:
+def test_the_exit_code_does_where_no_fault_is_known(after: str, by_shell, tmp_path: Path) -> None:
     assert by_shell("", "missing.nml", after=after).returncode == 2
     assert not contents(tmp_path)
 
@@ -88,7 +88,7 @@ def test_the_exit_code_does_where_no_fault_can_be_told(after: str, by_shell, tmp
 
 
 @pytest.mark.parametrize("task", TASKS)
-def test_too_few_files_are_the_reason_told(task: str, by_shell, scene_text, tmp_path: Path) -> None:
+def test_too_few_files_are_the_reason_reported(task: str, by_shell, scene_text, tmp_path: Path) -> None:
     """From the fewest with which the libraries load up to enough; --resume mends what was begun."""
     (tmp_path / "scene.nml").write_text(TASKS[task](scene_text))
     assert by_shell("", "--output", "enough", "scene.nml").returncode == 0
@@ -118,7 +118,7 @@ def test_the_stack_of_the_program(
 
 
 @pytest.mark.parametrize(
-    ("variable", "size", "told"),
+    ("variable", "size", "reported"),
     [
         ("OMP_STACKSIZE", "16k", 16),
         ("OMP_STACKSIZE", "100", 100),
@@ -130,17 +130,17 @@ def test_the_stack_of_the_program(
     ],
 )
 def test_the_stacks_of_threads(
-    variable: str, size: str, told: int | None, by_shell, scene_text, tmp_path: Path
+    variable: str, size: str, reported: int | None, by_shell, scene_text, tmp_path: Path
 ) -> None:
     """Whatever spelling the library knows; one thread has none of its own."""
     (tmp_path / "scene.nml").write_text(TASKS["campaign"](scene_text))
     ended = by_shell("", "--quiet", "--threads", "2", "scene.nml", **{variable: size})
-    if told is None:
+    if reported is None:
         assert (ended.returncode, ended.stderr) == (0, "")
         return
     assert ended.returncode == 3
     assert ended.stderr == (
-        f"rattle: a thread has a stack of {told} kB (OMP_STACKSIZE or GOMP_STACKSIZE), and rattle takes "
+        f"rattle: a thread has a stack of {reported} kB (OMP_STACKSIZE or GOMP_STACKSIZE), and rattle takes "
         "1024 kB; unset the variable, or set OMP_STACKSIZE=8M\n"
     )
     assert not (tmp_path / "results").exists()

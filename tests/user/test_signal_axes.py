@@ -375,7 +375,7 @@ WRONG = {
         "signal_cycles and frequency",
     ),
 }
-# What is wrong with the axis itself: its name and numbers, and what is told of them.
+# What is wrong with the axis itself: its name and numbers, and what is reported of them.
 CROOKED = {
     "descending": ("time_s", spread(90, PERIOD)[::-1], ":3: the axis descends: after 0.001648"),
     "a doubled line": ("time_s", np.insert(spread(89, PERIOD), 40, spread(89, PERIOD)[40]), "not uniform"),
@@ -536,7 +536,7 @@ def test_a_file_in_any_dress_is_its_orders(case: str, write, run, by_hand, tmp_p
     assert_solved_as(by_hand["load"], run, tmp_path)
 
 
-def test_the_scatter_of_cycles_is_told(write, run, tmp_path: Path) -> None:
+def test_the_scatter_of_cycles_is_reported(write, run, tmp_path: Path) -> None:
     """In --check, the log and the resolved input, as a share of what oscillates of the mean."""
     count, cycles, noise = 90, 10, 12.0
     one = force(np.arange(count) / count)
@@ -545,19 +545,19 @@ def test_the_scatter_of_cycles_is_told(write, run, tmp_path: Path) -> None:
     samples = (levels[:, None] + one[None, :]).ravel()
     rows = "".join(f"{i * PERIOD / count!r},{float(x)!r}\n" for i, x in enumerate(samples))
     write("load", "time_s,signal\n" + rows)
-    told = 100.0 * noise / math.sqrt(sum(0.5 * a**2 for _, a, _ in FORCE_ORDERS))
+    reported = 100.0 * noise / math.sqrt(sum(0.5 * a**2 for _, a, _ in FORCE_ORDERS))
     for options, file in ((("--check",), None), ((), "scene.log")):
         ended = run(*options, "scene.nml", cwd=tmp_path)
         assert (ended.returncode, ended.stderr) == (0, "")
         text = ended.stdout if file is None else (tmp_path / "results" / file).read_text()
         (line,) = (line for line in text.splitlines() if "column 'signal'" in line)
         assert "900 samples; in 10 cycles of 90, whose rms deviation from their mean is " in line
-        assert float(line.split("from their mean is ")[1].split(" %")[0]) == pytest.approx(told, rel=5e-3)
+        assert float(line.split("from their mean is ")[1].split(" %")[0]) == pytest.approx(reported, rel=5e-3)
         assert line.endswith("10 cycles: by its axis 'time_s' in s")
         if file is None:
             assert "\n! derived: load.signal_cycles = 10\n" in text
             (line,) = (line for line in text.splitlines() if "load.signal_scatter" in line)
-            assert float(line.split(" = ")[1]) == pytest.approx(told / 100.0, rel=5e-5)
+            assert float(line.split(" = ")[1]) == pytest.approx(reported / 100.0, rel=5e-5)
     result = package.read(tmp_path / "results" / "scene.rattle")
     assert result.input["load"]["force_amplitudes"] == pytest.approx([a for _, a, _ in FORCE_ORDERS])
 
@@ -630,10 +630,12 @@ def test_no_line_of_a_foreign_file_is_quoted(text: str, write, refused) -> None:
         write("load", text, column)
         for fault in refused("--check", "scene.nml"):
             assert fault.startswith("cycle.csv:")
-            told = fault
+            reported = fault
             for word in ("other", "root"):
-                told = told.replace(f"column '{word}'", "").replace(f"--signal {word} ", "")
-            assert not [word for word in ("secret", "hidden", "root", "KEY", "bob") if word in told], fault
+                reported = reported.replace(f"column '{word}'", "").replace(f"--signal {word} ", "")
+            assert not [word for word in ("secret", "hidden", "root", "KEY", "bob") if word in reported], (
+                fault
+            )
 
 
 @pytest.mark.parametrize(

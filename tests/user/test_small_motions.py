@@ -94,9 +94,9 @@ def test_small_motions_are_those_of_all_films_and_springs(law, run, scene_text, 
         names.append(f"{place}.nml")
         (tmp_path / names[-1]).write_text(text)
         expected.append(oscillation(np.transpose(slopes), mass, spring))
-    told = run("--check", *names, cwd=tmp_path)
-    assert (told.returncode, told.stderr) == (0, "")
-    parts = told.stdout.split(": valid; ")[1:]
+    reported = run("--check", *names, cwd=tmp_path)
+    assert (reported.returncode, reported.stderr) == (0, "")
+    parts = reported.stdout.split(": valid; ")[1:]
     assert len(parts) == SCENES_OF_EACH
     assert {pair is None for pair in expected} == {True, False}
     for name, pair, part in zip(names, expected, parts, strict=True):
@@ -112,16 +112,16 @@ def test_small_motions_are_those_of_all_films_and_springs(law, run, scene_text, 
 def test_a_soft_coast_film_takes_no_part(run, scene_text, tmp_path: Path) -> None:
     """The coast film is 1e4 times thicker than the drive film, and its load 1e-14 of it."""
     canonical = {"solver": TAYLOR, "film": {"law": "'piezo-viscous'", "model": "'published'"}}
-    told = []
+    reported = []
     for backlash in ({}, {"backlash": "0.01"}):
         (tmp_path / "soft_coast.nml").write_text(
             scene_text(contact={"stiffness": "1e13", **backlash}, **canonical)
         )
         assert run("soft_coast.nml", "--overwrite", cwd=tmp_path).returncode == 0
-        told.append(summary_of(tmp_path / "results" / "soft_coast.summary.nml"))
+        reported.append(summary_of(tmp_path / "results" / "soft_coast.summary.nml"))
     for name in ("natural_frequency", "damping_ratio"):
-        assert told[1][name] == pytest.approx(told[0][name], rel=1e-9)
-    assert told[1]["damping_ratio"] == pytest.approx(0.8612, abs=5e-5)
+        assert reported[1][name] == pytest.approx(reported[0][name], rel=1e-9)
+    assert reported[1]["damping_ratio"] == pytest.approx(0.8612, abs=5e-5)
 
 
 @pytest.mark.parametrize("stiffness", [None, "1e13"])

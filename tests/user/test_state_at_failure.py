@@ -70,24 +70,24 @@ def test_the_state_at_failure_is_where_the_series_ends(
     )
     ended = run("scene.nml", cwd=tmp_path)
     assert ended.returncode == 1, ended.stderr
-    told = summary_of(tmp_path / "results" / "scene.summary.nml")
-    assert told["status"] == status
+    reported = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert reported["status"] == status
     series = package.read(tmp_path / "results" / "scene.rattle")
     time, film, velocity = (np.array(series[name]) for name in COLUMNS.replace("'", "").split(", "))
     step = 1.0 / (FREQUENCY * int(solver.get("samples_per_period") or solver["steps_per_period"]))
     np.testing.assert_allclose(np.diff(time), step, rtol=1e-9)
-    behind = told["status_time"] - time[-1]
+    behind = reported["status_time"] - time[-1]
     assert -1e-9 * step <= behind < step
     # Within a sample the film goes on as its velocity says; its curvature is what may be left of it.
     left = 2.0 * abs(velocity[-1] - velocity[-2]) * behind if moved and time.size > 1 else 0.0
     if time.size > 1 or not moved:
-        assert told["film_at_status_time"] == pytest.approx(
+        assert reported["film_at_status_time"] == pytest.approx(
             film[-1] + velocity[-1] * behind, rel=1e-9, abs=left
         )
-    assert (abs(told["film_at_status_time"] / film[0] - 1.0) > 0.005) == moved
+    assert (abs(reported["film_at_status_time"] / film[0] - 1.0) > 0.005) == moved
     line = f"{status} at t = "
     (said,) = (text for text in ended.stdout.splitlines() if line in text)
-    assert f"film {1e6 * told['film_at_status_time']:.5g}"[:10] in said
+    assert f"film {1e6 * reported['film_at_status_time']:.5g}"[:10] in said
 
 
 def test_a_motion_without_a_film_to_start_from_tells_none(run, scene_text, tmp_path: Path) -> None:
@@ -98,8 +98,8 @@ def test_a_motion_without_a_film_to_start_from_tells_none(run, scene_text, tmp_p
         (tmp_path / f"{method}.nml").write_text(text)
         ended = run(f"{method}.nml", cwd=tmp_path)
         assert ended.returncode == 1
-        told = summary_of(tmp_path / "results" / f"{method}.summary.nml")
-        assert told["status"] == "no_rigid_film" and "film_at_status_time" not in told
+        reported = summary_of(tmp_path / "results" / f"{method}.summary.nml")
+        assert reported["status"] == "no_rigid_film" and "film_at_status_time" not in reported
         assert "no_rigid_film at t = 0 s, without a film to start from: " in ended.stdout
 
 
@@ -121,9 +121,9 @@ def test_a_motion_that_is_ended_tells_the_state_of_its_last_row(
         process.wait(30)
     finally:
         process.kill()
-    told = summary_of(tmp_path / "results" / "scene.summary.nml")
-    assert told["status"] == ending
+    reported = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert reported["status"] == ending
     series = package.read(tmp_path / "results" / "scene.rattle")
-    assert told["status_time"] == pytest.approx(series["time"][-1], rel=1e-12)
-    assert told["film_at_status_time"] == pytest.approx(series["film_thickness"][-1], rel=1e-12)
-    assert abs(told["film_at_status_time"] / series["film_thickness"][0] - 1.0) > 0.01
+    assert reported["status_time"] == pytest.approx(series["time"][-1], rel=1e-12)
+    assert reported["film_at_status_time"] == pytest.approx(series["film_thickness"][-1], rel=1e-12)
+    assert abs(reported["film_at_status_time"] / series["film_thickness"][0] - 1.0) > 0.01

@@ -150,7 +150,7 @@ def test_steady_run_equals_the_full_run(
 def test_newmark_error_is_that_of_its_verification(run, scene_text, tmp_path: Path) -> None:
     """The error fourfold at half the steps, as second order asks; also against a window of more samples.
 
-    Errors are told with two digits, each true to 5 %.
+    Errors are reported with two digits, each true to 5 %.
     """
     errors = []
     for steps in ("64", "128", "256", "512"):

@@ -102,13 +102,17 @@ def test_ends_are_the_folds_of_pseudo_arclength_continuation(found, tmp_path: Pa
         state, _, _ = pair.period_map(state, start)
     unit = 10.0
     folds = pseudo_arclength.folds(pair.period_map, unit, np.append(state, start / unit), 1.0, 2)
-    for (amplitude, point), told in zip(folds, (row["last_below"], row["last_above"]), strict=True):
+    for (amplitude, point), reported in zip(folds, (row["last_below"], row["last_above"]), strict=True):
         assert abs(point.multipliers - 1.0).min() < 1e-5
-        assert abs(told - amplitude) < 1e-6 * amplitude
+        assert abs(reported - amplitude) < 1e-6 * amplitude
     log = (tmp_path / "results" / "scene.log").read_text()
     assert "  at 1 of 1 crossing either side is possible" in log
-    told = summary_of(tmp_path / "results" / "scene.summary.nml")
-    assert (told["crossings_followed"], told["crossings_either"], told["crossings_end_unsure"]) == (1, 1, 0)
+    reported = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert (
+        reported["crossings_followed"],
+        reported["crossings_either"],
+        reported["crossings_end_unsure"],
+    ) == (1, 1, 0)
 
 
 def test_scenes_alone_have_both_sides_between_the_ends_and_one_beyond(found, alone, tmp_path: Path) -> None:
@@ -118,7 +122,7 @@ def test_scenes_alone_have_both_sides_between_the_ends_and_one_beyond(found, alo
     for amplitude, sides in ((low - margin, [0]), (0.5 * (low + high), [0, 1]), (high + margin, [1])):
         alone(*set_to(load__force_amplitude=float(amplitude), solver__starts=29))
         motions = package.read(tmp_path / "results" / "alone.rattle").motions.frame()
-        told = [
+        reported = [
             alone(
                 *set_to(
                     load__force_amplitude=float(amplitude),
@@ -129,7 +133,7 @@ def test_scenes_alone_have_both_sides_between_the_ends_and_one_beyond(found, alo
             )["double_sided"]
             for motion in motions.itertuples()
         ]
-        assert sorted(map(int, told)) == sides
+        assert sorted(map(int, reported)) == sides
 
 
 def test_a_trace_without_a_threshold_tells_of_another_side(found, alone, tmp_path: Path) -> None:
@@ -187,8 +191,8 @@ def test_a_motion_that_passes_a_level_smoothly_ends_there(found, alone) -> None:
     assert row["lower"] <= row["last_below"] <= row["upper"]
     assert row["motion_end_below_word"] == row["motion_end_above_word"] == "criterion"
     np.testing.assert_allclose(row["last_above"], row["last_below"], rtol=1e-6)
-    told = alone(*set_to(load__force_amplitude=float(row["last_below"]), solver__starts=1))
-    np.testing.assert_allclose(told["acceleration_rms"], 10.0, rtol=1e-6)
+    reported = alone(*set_to(load__force_amplitude=float(row["last_below"]), solver__starts=1))
+    np.testing.assert_allclose(reported["acceleration_rms"], 10.0, rtol=1e-6)
 
 
 @pytest.mark.long
@@ -242,9 +246,9 @@ def test_joined_parts_have_the_ends_of_the_undivided_run(run, found, tmp_path: P
 def test_motions_that_do_not_repeat_end_to_the_width_of_a_bracket(
     run, repository: Path, tmp_path: Path
 ) -> None:
-    """Between 900 and 1500 1/min a pair in thin oil is irregular: value by value, and told as bracketed.
+    """Between 900 and 1500 1/min a pair in thin oil is irregular: value by value, and reported as bracketed.
 
-    The last digits of chaotic motions decide how many crossings there are and how their other ends are told.
+    The last digits of chaotic motions decide how many crossings there are and how the other ends are found.
     """
     text = (repository / "input" / "two_motions.nml").read_text().replace("periods = 400", "periods = 60")
     text = text.replace("temperature_celsius = 60.0", "temperature_celsius = 100.0")
@@ -266,8 +270,8 @@ def test_motions_that_do_not_repeat_end_to_the_width_of_a_bracket(
             place = (row[f"last_{side}"] - first) / (last - first) * places
             assert word != "bracketed" or abs(place - round(place)) < 1e-9, side
     assert unsure > 0 and "bracketed" in {*rows["motion_end_below_word"], *rows["motion_end_above_word"]}
-    told = re.search(r"at (\d+) crossings? an end is that of a motion that does not repeat", ended.stdout)
-    assert told and int(told[1]) == unsure
+    reported = re.search(r"at (\d+) crossings? an end is that of a motion that does not repeat", ended.stdout)
+    assert reported and int(reported[1]) == unsure
     assert summary_of(tmp_path / "results" / "scene.summary.nml")["crossings_end_unsure"] == unsure
 
 

@@ -70,9 +70,9 @@ def test_joined_parts_are_the_undivided_run(parts: int, solve, scene_text, tmp_p
     assert (done.returncode, done.stdout) == (0, "joined.rattle\n"), done.stderr
     assert done.stderr == f"campaign.py: {parts} parts joined, 3 traces.\n"
     assert (tmp_path / "joined.rattle").read_bytes() == whole.read_bytes()
-    told = [summary_of(path.with_suffix(".summary.nml")) for path in (*paths, whole)]
+    reported = [summary_of(path.with_suffix(".summary.nml")) for path in (*paths, whole)]
     for name in ("traces", "crossings", "crossings_uncertain", "scenes"):
-        assert sum(one[name] for one in told[:-1]) == told[-1][name] > 0, name
+        assert sum(one[name] for one in reported[:-1]) == reported[-1][name] > 0, name
 
 
 def test_parts_that_do_not_belong_together(solve, scene_text, tmp_path: Path) -> None:
@@ -132,10 +132,10 @@ def test_a_part_is_carried_on(rattle, run, solve, scene_text, tmp_path: Path) ->
 def test_wrong_parts_and_what_check_tells(run, refused, scene_text, tmp_path: Path) -> None:
     (tmp_path / "scene.nml").write_text(threshold_text(scene_text, campaign=SPEEDS))
     assert "campaign part: at most parts (3)" in refused(*part_of(4, 3), "scene.nml")[0]
-    told = run("--check", *part_of(2, 2), "scene.nml", cwd=tmp_path).stdout
-    assert "! traces              2\n! scenes of the scan  34\n" in told
-    told = run("--check", *part_of(1, 5), "scene.nml", cwd=tmp_path).stdout
-    assert "! traces              0\n" in told
+    reported = run("--check", *part_of(2, 2), "scene.nml", cwd=tmp_path).stdout
+    assert "! traces              2\n! scenes of the scan  34\n" in reported
+    reported = run("--check", *part_of(1, 5), "scene.nml", cwd=tmp_path).stdout
+    assert "! traces              0\n" in reported
 
 
 def test_a_job_script_takes_thresholds_as_an_array(scene_text, tmp_path: Path) -> None:
@@ -180,8 +180,8 @@ def test_the_seal_has_the_checksum_of_a_chunk_that_is_not_full_alone(rows: int, 
     """As the program seals its series: whole chunks, here of two rows, have their checksums in the table."""
     monkeypatch.setattr("rattle.merge.series_chunk_rows", lambda *_: 2)
     table = np.arange(2.0 * rows).reshape(rows, 2)
-    told, seal = _chunks([Rows(table)])
+    reported, seal = _chunks([Rows(table)])
     assert seal.rows == rows
     assert seal.rest_checksum == (checksum(table[-1:]) if rows % 2 else 0)
     whole = [checksum(table[start : start + 2]) for start in range(0, rows - 1, 2)]
-    assert list(told.checksums) == whole + [0] * (rows % 2)
+    assert list(reported.checksums) == whole + [0] * (rows % 2)

@@ -96,23 +96,23 @@ def ends_that_differ(run, folder: Path, text: str, threshold: str, campaign: str
             words = [word for setting in settings for word in ("--set", setting)]
             ended = run("--overwrite", *words, "alone.nml", cwd=folder)
             assert ended.returncode in (0, 1), ended.stderr
-            told = summary_of(folder / "results" / "alone.summary.nml")
-            if "verification" in told:
-                told["verified"] = verified(result, told)
+            reported = summary_of(folder / "results" / "alone.summary.nml")
+            if "verification" in reported:
+                reported["verified"] = verified(result, reported)
             found += [
-                f"row {row + 1}, {side}, {value!r}: {fault}" for fault in faults(result, row, side, told)
+                f"row {row + 1}, {side}, {value!r}: {fault}" for fault in faults(result, row, side, reported)
             ]
     return found, int((result["crossing"] > 0).sum())
 
 
-def verified(result: package.Result, told: dict) -> float:
+def verified(result: package.Result, reported: dict) -> float:
     """Whether what the criterion looks at stands when the scene is solved again, tighter."""
     names = [name.removesuffix("_below") for name in result.names if name.endswith("_below")]
     if {"verdict", "double_sided", "separation"} & set(names):
-        return float(told["verdict_verified"])
+        return float(reported["verdict_verified"])
     if any(name.startswith("impact") for name in names):
-        return float(told["impacts_verified"])
-    return float(told["verification"] == "verified")
+        return float(reported["impacts_verified"])
+    return float(reported["verification"] == "verified")
 
 
 def one_pair(text: str, number: int) -> str:
@@ -124,7 +124,7 @@ def one_pair(text: str, number: int) -> str:
     return text
 
 
-def faults(result: package.Result, row: int, side: str, told: dict):
+def faults(result: package.Result, row: int, side: str, reported: dict):
     """What one end of a row says and its scene does not."""
     columns = [name.removesuffix(f"_{side}") for name in result.names if name.endswith(f"_{side}")]
     # Where the motions of the side end is no quantity of a scene: tests/user/test_threshold_ends.py.
@@ -135,11 +135,11 @@ def faults(result: package.Result, row: int, side: str, told: dict):
         if name == "verified" and result["crossing"][row] == 0.0:
             assert np.isnan(here)  # a trace without a crossing is not put to the test
             continue
-        if name not in told:
+        if name not in reported:
             if not np.isnan(here):
                 yield f"{name} is {here!r}, which the scene does not tell"
             continue
-        alone = told[name]
+        alone = reported[name]
         if name in CODES:
             alone = {words: code for code, words in CODES[name].items()}[str(alone).strip()]
         if not abs(here - float(alone)) <= TOLERANCE * abs(float(alone)):

@@ -92,10 +92,10 @@ def test_brackets_are_where_a_fine_grid_changes(criterion: str, found, run, scen
             searched += int(inside > 0)
         crossings += len(ours)
     assert crossings >= 3
-    told = summary_of(tmp_path / "results" / "scene.summary.nml")
-    assert told["crossings"] == crossings and told["traces"] == 3
+    reported = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert reported["crossings"] == crossings and reported["traces"] == 3
     # Crossings within one step of the scan share the first halves of their search.
-    assert 51 + 6 * searched <= told["scenes"] <= 51 + (6 + 2) * crossings
+    assert 51 + 6 * searched <= reported["scenes"] <= 51 + (6 + 2) * crossings
 
 
 def test_several_thresholds_on_a_line(found, scene_text) -> None:
@@ -117,9 +117,9 @@ def test_every_column_has_the_unit_of_what_it_holds(found, scene_text, tmp_path:
     units = {"kinematics.entrainment_speed": "m/s", "lower": "kg", "upper": "kg", "width": "kg"}
     units |= {"film_force_rms_below": "N", "film_force_rms_above": "N"}
     units |= {"last_below": "kg", "last_above": "kg"}
-    told = package.read(tmp_path / "results" / "scene.rattle").units
-    assert {name: unit for name, unit in told.items() if unit != "-"} == units
-    assert set(told) - set(units) == {
+    reported = package.read(tmp_path / "results" / "scene.rattle").units
+    assert {name: unit for name, unit in reported.items() if unit != "-"} == units
+    assert set(reported) - set(units) == {
         *("trace", "crossing", "status_below", "status_above", "verified_below", "verified_above"),
         *("motion_end_below", "motion_end_above"),
     }
@@ -129,8 +129,8 @@ def test_rows_of_a_campaign_know_which_side_is_verified(found, run, scene_text, 
     rows = found(threshold_text(scene_text, threshold={"tolerance": "0.05"}))
     for _, row in rows.iterrows():
         stands, _ = grid_column(run, scene_text, tmp_path, "verified", [row["lower"], row["upper"]])
-        told = [row["verified_below"], row["verified_above"]]
-        assert stands[int(row["trace"]) - 1].tolist() == told, row
+        reported = [row["verified_below"], row["verified_above"]]
+        assert stands[int(row["trace"]) - 1].tolist() == reported, row
 
 
 @pytest.mark.parametrize(("tolerance", "seen"), [("0.01", 1.0), ("1e-12", 0.0)])
@@ -140,8 +140,8 @@ def test_every_bracket_says_whether_both_classes_stand(tolerance, seen, found, s
     rows = found(threshold_text(scene_text, threshold={"tolerance": "0.05"}, spectrum=spectrum))
     flags = rows[["verified_below", "verified_above"]]
     assert seen in np.unique(flags) and np.isin(flags, [0.0, 1.0]).all() and len(rows) > 3
-    told = summary_of(tmp_path / "results" / "scene.summary.nml")
-    assert told["crossings_uncertain"] == int((flags == 0.0).any(axis=1).sum())
+    reported = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert reported["crossings_uncertain"] == int((flags == 0.0).any(axis=1).sum())
     bare = found(threshold_text(scene_text, threshold={"tolerance": "0.05"}, spectrum=NARROW), name="bare")
     assert list(bare) == [name for name in rows if name not in ("verified_below", "verified_above")]
 
@@ -167,20 +167,20 @@ def test_ends_go_apart_until_both_are_verified(found, run, scene_text, tmp_path:
         assert (
             classes[int(row["trace"]) - 1] == [row["rattle_class_below"], row["rattle_class_above"]]
         ).all()
-    told = summary_of(tmp_path / "results" / "scene.summary.nml")
-    assert told["crossings_uncertain"] == 0
-    assert told["crossings_wide"] == int((rows["width"] > 1.5 * asked).sum())
+    reported = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert reported["crossings_uncertain"] == 0
+    assert reported["crossings_wide"] == int((rows["width"] > 1.5 * asked).sum())
 
 
-def test_a_line_without_threshold_is_told(found, scene_text, run, tmp_path: Path) -> None:
+def test_a_line_without_threshold_is_reported(found, scene_text, run, tmp_path: Path) -> None:
     rows = found(threshold_text(scene_text, threshold={**SEVERE, "last": "60.0"}))
     assert rows["trace"].tolist() == [1, 2, 3]
     alone = rows[rows["crossing"] == 0]
     assert 0 < len(alone) < 3
     assert (alone["lower"] == 5.0).all() and (alone["upper"] == 60.0).all()
     assert (alone["film_force_rms_above"] < 100.0).all() and alone["verified_below"].isna().all()
-    told = summary_of(tmp_path / "results" / "scene.summary.nml")
-    assert told["traces_without_crossing"] == len(alone) and told["crossings"] == 3 - len(alone)
+    reported = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert reported["traces_without_crossing"] == len(alone) and reported["crossings"] == 3 - len(alone)
 
 
 def test_scenes_that_fail_are_a_kind_of_their_own(found, run, scene_text, tmp_path: Path) -> None:
@@ -277,9 +277,9 @@ def test_a_signal_ends_it_without_a_result(number, rattle, run, scene_text, tmp_
     until(lambda: "100000 values a trace" in log.read_text(), process)
     process.send_signal(number)
     assert process.wait(600) == 128 + number
-    told = log.read_text()
-    assert "cut short after 0 of 3 traces; --resume goes on with these and " in told
-    assert "  results/scene.rattle and its summary are those of an earlier run\n" in told
+    reported = log.read_text()
+    assert "cut short after 0 of 3 traces; --resume goes on with these and " in reported
+    assert "  results/scene.rattle and its summary are those of an earlier run\n" in reported
     assert [digest(path) for path in results] == before
     assert not list((tmp_path / "results").glob("*.new"))
 
@@ -317,8 +317,8 @@ def cut_between(rattle: Path, folder: Path) -> int:
     """Ends a run by a signal after its first line and before its last; how many were done."""
     for share in (1.0, 2.0, 0.5, 4.0, 0.25, 8.0, 0.1):
         if cut_short(rattle, folder, signal.SIGTERM, 0.2 * share) == 128 + signal.SIGTERM:
-            told = (folder / "results" / "scene.log").read_text()
-            if lines := int(re.search(r"cut short after (\d+) of 24 traces", told)[1]):
+            reported = (folder / "results" / "scene.log").read_text()
+            if lines := int(re.search(r"cut short after (\d+) of 24 traces", reported)[1]):
                 return lines
     raise AssertionError("the run could not be cut between two traces")
 
@@ -343,8 +343,8 @@ def test_carried_on_to_the_same_bytes(rattle, run, scene_text, tmp_path: Path) -
     assert ended.returncode == 0, ended.stderr
     assert f"carried on after {lines} traces of the earlier run" in ended.stdout
     assert digest(results / "scene.rattle") == digest(whole / "scene.rattle")
-    told, expected = (summary_of(place / "scene.summary.nml") for place in (results, whole))
-    assert {**told, "wall_seconds": 0} == {**expected, "wall_seconds": 0}
+    reported, expected = (summary_of(place / "scene.summary.nml") for place in (results, whole))
+    assert {**reported, "wall_seconds": 0} == {**expected, "wall_seconds": 0}
     assert not state_path(tmp_path).exists()
 
 
@@ -362,12 +362,14 @@ def test_cut_in_its_first_lines_it_goes_on_where_it_was(rattle, run, scene_text,
         if process.wait(600) == 0:
             break
         log = tmp_path / "results" / "scene.log"
-        told = re.search(r"with these and (\d+) values? of the next", log.read_text() if log.exists() else "")
-        if told is None:
+        reported = re.search(
+            r"with these and (\d+) values? of the next", log.read_text() if log.exists() else ""
+        )
+        if reported is None:
             # The signal came before the run had begun.
             seconds *= 2.0
             continue
-        cuts.append(int(told[1]))
+        cuts.append(int(reported[1]))
         assert cuts[-1] >= values
         # One scene more may take longer.
         seconds *= 1.5 if cuts[-1] == values else 1.0
@@ -376,8 +378,8 @@ def test_cut_in_its_first_lines_it_goes_on_where_it_was(rattle, run, scene_text,
         assert run("--resume", "scene.nml", cwd=tmp_path, timeout=600.0).returncode == 0
     assert sum(value > 0 for value in cuts) >= 2, cuts
     assert digest(tmp_path / "results" / "scene.rattle") == digest(tmp_path / "whole" / "scene.rattle")
-    told, expected = (summary_of(tmp_path / at / "scene.summary.nml") for at in ("results", "whole"))
-    assert {**told, "wall_seconds": 0} == {**expected, "wall_seconds": 0}
+    reported, expected = (summary_of(tmp_path / at / "scene.summary.nml") for at in ("results", "whole"))
+    assert {**reported, "wall_seconds": 0} == {**expected, "wall_seconds": 0}
 
 
 def test_states_of_others_are_refused(rattle, run, scene_text, tmp_path: Path) -> None:

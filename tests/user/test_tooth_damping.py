@@ -230,9 +230,9 @@ def test_a_collision_without_film_is_that_of_a_spring_and_a_damper(
     """
     (tmp_path / "hit.nml").write_text(replace(HIT, damping_ratio=damping_ratio, viscosity=1e-4).text())
     assert run("hit.nml", cwd=tmp_path).returncode == 0
-    told = summary_of(tmp_path / "results" / "hit.summary.nml")
+    reported = summary_of(tmp_path / "results" / "hit.summary.nml")
     kept = np.exp(-damping_ratio * (np.pi - 2.0 * np.arcsin(damping_ratio)) / np.sqrt(1.0 - damping_ratio**2))
-    assert told["velocity_maximum"] / 0.1 == pytest.approx(kept, abs=1e-3)
+    assert reported["velocity_maximum"] / 0.1 == pytest.approx(kept, abs=1e-3)
 
 
 @pytest.mark.parametrize("damping_ratio", [0.001, 0.05, 0.3])
@@ -283,7 +283,7 @@ LAWS = {
         "contact.flattening_included=.false.",
     ),
 }
-TOLD = (
+REPORTED = (
     "film_minimum",
     "acceleration_maximum",
     "film_force_rms",
@@ -297,17 +297,17 @@ def set_all(settings: tuple[str, ...]) -> list[str]:
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_the_energy_balance_closes_and_is_told_apart(law: str, run, tmp_path: Path) -> None:
+def test_the_energy_balance_closes_and_is_distinct(law: str, run, tmp_path: Path) -> None:
     """What films and teeth lose is all that is lost; teeth lose the work that their loads do on them."""
     (tmp_path / "pair.nml").write_text(PAIR)
     assert run("pair.nml", *set_all(LAWS[law]), cwd=tmp_path).returncode == 0
-    told = summary_of(tmp_path / "results" / "pair.summary.nml")
-    assert told["status"] == "steady" and told["verification"] == "verified"
-    assert told["film_dissipated_power"] + told["tooth_dissipated_power"] == pytest.approx(
-        told["dissipated_power"], rel=1e-14
+    reported = summary_of(tmp_path / "results" / "pair.summary.nml")
+    assert reported["status"] == "steady" and reported["verification"] == "verified"
+    assert reported["film_dissipated_power"] + reported["tooth_dissipated_power"] == pytest.approx(
+        reported["dissipated_power"], rel=1e-14
     )
     if law not in ("iso", "half-pi"):
-        assert 0.0 < told["tooth_dissipated_power"] < told["dissipated_power"]
+        assert 0.0 < reported["tooth_dissipated_power"] < reported["dissipated_power"]
         return
     result = rattle.read(tmp_path / "results" / "pair.rattle")
     time, film, load, coast, coast_load, gear = (
@@ -325,7 +325,7 @@ def test_the_energy_balance_closes_and_is_told_apart(law: str, run, tmp_path: Pa
             time[0], time[-1]
         )
     power = work / (time[-1] - time[0])
-    assert told["tooth_dissipated_power"] == pytest.approx(power, rel=1e-5)
+    assert reported["tooth_dissipated_power"] == pytest.approx(power, rel=1e-5)
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -335,7 +335,7 @@ def test_rows_sweeps_and_single_scenes_agree(law: str, run, tmp_path: Path) -> N
     for ratio in ratios:
         given = set_all((*LAWS[law], f"contact.damping_ratio={ratio}"))
         assert run("pair.nml", *given, "--output", f"single{ratio}", cwd=tmp_path).returncode == 0
-    names = ", ".join(f"'{name}'" for name in TOLD)
+    names = ", ".join(f"'{name}'" for name in REPORTED)
     scene = PAIR[: PAIR.index("&output")]
     (tmp_path / "rows.nml").write_text(
         f"&scene task = 'campaign' /{scene}&campaign vary = 'contact.damping_ratio', first = 0.0, "
@@ -353,19 +353,19 @@ def test_rows_sweeps_and_single_scenes_agree(law: str, run, tmp_path: Path) -> N
         assert ended.returncode == 0, ended.stderr
     rows = rattle.read(tmp_path / "results" / "rows.rattle")
     for place, ratio in enumerate(ratios):
-        told = summary_of(tmp_path / f"single{ratio}" / "pair.summary.nml")
-        for name in TOLD:
+        reported = summary_of(tmp_path / f"single{ratio}" / "pair.summary.nml")
+        for name in REPORTED:
             assert np.array(rows[name])[place] == pytest.approx(
-                told.get(name, np.nan), rel=1e-7, nan_ok=True
+                reported.get(name, np.nan), rel=1e-7, nan_ok=True
             ), name
     swept = rattle.read(tmp_path / "results" / "swept.rattle")
     given = set_all((*LAWS[law], "contact.stiffness=6e7"))
     assert run("pair.nml", *given, "--output", "last", cwd=tmp_path).returncode == 0
-    told = summary_of(tmp_path / "last" / "pair.summary.nml")
+    reported = summary_of(tmp_path / "last" / "pair.summary.nml")
     for name in ("film_minimum", "acceleration_maximum", "film_force_rms"):
-        assert np.array(swept[name])[np.argmax(swept["stiffness"])] == pytest.approx(told[name], rel=1e-7), (
-            name
-        )
+        assert np.array(swept[name])[np.argmax(swept["stiffness"])] == pytest.approx(
+            reported[name], rel=1e-7
+        ), name
 
 
 def test_pairs_from_no_damping_on_are_those_alone(run, repository: Path, tmp_path: Path) -> None:
@@ -383,10 +383,10 @@ def test_pairs_from_no_damping_on_are_those_alone(run, repository: Path, tmp_pat
         alone = set_all((f"gear.tooth_damping_ratio={ratio}", "solver.starts=1"))
         assert run(box, *alone, "--output", f"alone{ratio}", cwd=tmp_path).returncode == 0
         for gear, pair in zip(rows.gears, rows.pairs, strict=True):
-            told = summary_of(tmp_path / f"alone{ratio}" / f"gearbox.{gear}.summary.nml")
+            reported = summary_of(tmp_path / f"alone{ratio}" / f"gearbox.{gear}.summary.nml")
             (place,) = np.flatnonzero(np.abs(np.array(pair["gear.tooth_damping_ratio"]) - ratio) < 1e-12)
             for name in ("film_force_rms", "acceleration_rms"):
-                assert pair[name][place] == pytest.approx(told[name], rel=1e-6), (gear, ratio, name)
+                assert pair[name][place] == pytest.approx(reported[name], rel=1e-6), (gear, ratio, name)
 
 
 def test_a_small_damping_is_near_none(run, tmp_path: Path) -> None:
@@ -398,7 +398,7 @@ def test_a_small_damping_is_near_none(run, tmp_path: Path) -> None:
     none, least, small = (
         summary_of(tmp_path / f"of{ratio}" / "pair.summary.nml") for ratio in (0.0, 1e-12, 1e-6)
     )
-    for name in TOLD[:3]:
+    for name in REPORTED[:3]:
         assert least[name] == pytest.approx(none[name], rel=1e-8), name
         assert small[name] == pytest.approx(none[name], rel=1e-6), name
     assert small["tooth_dissipated_power"] / least["tooth_dissipated_power"] == pytest.approx(1e6, rel=1e-3)

@@ -32,7 +32,7 @@ def test_every_toy_fits_and_takes_the_files_of_its_list(touched, scratch):
     assert subprocess.run(layout, capture_output=True, text=True, check=False).stdout.strip() == ""
 
 
-def test_a_list_that_lacks_a_file_is_told(touched, scratch):
+def test_a_list_that_lacks_a_file_is_reported(touched, scratch):
     page = scratch / "fsrc" / "README.md"
     page.write_text(page.read_text().replace("2. `fsrc/film/film_law.f90`", "2. `fsrc/film/rupture.f90`"))
     _, faults = touched.add_toys(scratch, ["law"])
@@ -41,14 +41,14 @@ def test_a_list_that_lacks_a_file_is_told(touched, scratch):
     ]
 
 
-def test_a_toy_that_takes_more_files_is_told(touched, scratch):
+def test_a_toy_that_takes_more_files_is_reported(touched, scratch):
     page = scratch / "fsrc" / "README.md"
     page.write_text(page.read_text().replace("Add a task (at most 6 files)", "Add a task (at most 5 files)"))
     _, faults = touched.add_toys(scratch, ["task"])
     assert faults == ["a task: 6 files, more than 5"]
 
 
-def test_a_list_without_a_toy_is_told(touched, scratch):
+def test_a_list_without_a_toy_is_reported(touched, scratch):
     page = scratch / "fsrc" / "README.md"
     page.write_text(page.read_text() + "\n### Add a wheel (at most 1 files)\n")
     _, faults = touched.add_toys(scratch, ["law"])

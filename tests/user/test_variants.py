@@ -154,9 +154,9 @@ def test_the_page_and_the_csv_file_say_the_same(boxes, tmp_path) -> None:
             assert float(row["base"]) == known.base and float(row["value"]) == known.value
         assert row["same"] == str(known.same)
     read = read_page(page)
-    told = {float(digits) for digits, _ in read.numbers}
+    reported = {float(digits) for digits, _ in read.numbers}
     seen = frame[frame.name.isin(("film_force_rms", "acceleration_rms", "film_minimum"))]
-    assert {*seen.base, *seen.value} <= told
+    assert {*seen.base, *seen.value} <= reported
     decibels = [f"{value:+.2f}".replace("-", "\N{MINUS SIGN}") for value in seen.decibel.dropna()]
     assert decibels and all(any(words in row[-1] for row in read.rows if row) for words in decibels)
     assert "The answer differs" in read.verdicts[0]

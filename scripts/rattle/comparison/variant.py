@@ -91,7 +91,7 @@ def grouped(paths: Sequence[Path]) -> list[Variant]:
             found[-1] = place, replace(last, name=name, pairs={**last.pairs, **variant.pairs})
         else:
             found.append((place, variant))
-    return [_whole(variant) for variant in _told_apart(found)]
+    return [_whole(variant) for variant in _distinct(found)]
 
 
 def _variant(name: str, given: Given) -> Variant:
@@ -162,8 +162,8 @@ def _whole(variant: Variant) -> Variant:
     return replace(variant, together=None)
 
 
-def _told_apart(found: Sequence[tuple[Path, Variant]]) -> list[Variant]:
-    """Equal names are told apart by their folders, then by their order."""
+def _distinct(found: Sequence[tuple[Path, Variant]]) -> list[Variant]:
+    """Equal names are distinguished by their folders, then by their order."""
     counts = Counter(variant.name for _, variant in found)
     names = [
         f"{place.resolve().parent.name}/{variant.name}" if counts[variant.name] > 1 else variant.name

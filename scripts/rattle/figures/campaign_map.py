@@ -369,7 +369,7 @@ def _levels(values: np.ndarray, name: str) -> list[float]:
 
 
 def _levels_of_forces(low: float, high: float) -> list[float]:
-    """Levels that grow by about the same factor, no more of them than can be told apart."""
+    """Levels that grow by about the same factor, no more of them than can be distinguished."""
     decades = 10.0 ** np.arange(math.floor(math.log10(low)), math.log10(high))
     for steps in ((1.0, 2.0, 5.0), (1.0, 3.0), (1.0,)):
         within = [float(step * decade) for decade in decades for step in steps if low < step * decade < high]

@@ -17,7 +17,7 @@ from rattle.comparison.difference import AMPLITUDES
 from rattle.figures import campaign_look as look
 from rattle.figures import style
 
-DIFFERENCE_COLOURS = "PuOr_r"  # white where nothing differs; told apart in red-green blindness
+DIFFERENCE_COLOURS = "PuOr_r"  # white where nothing differs; distinguished in red-green blindness
 OTHER_WORD = "#333333"
 LEAST_SPAN = 1.0  # dB
 TALLEST = 9.0  # inches

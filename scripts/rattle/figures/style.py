@@ -154,7 +154,7 @@ def power_words(value: float, symbol: str = "") -> str:
 
 
 def run_labels(results: Sequence[Result]) -> list[str]:
-    """Scene names; runs of equal name are told apart by their directory, then by their order."""
+    """Scene names; runs of equal name are distinguished by their directory, then by their order."""
     labels = [result.scene_name for result in results]
     labels = [
         f"{result.path.resolve().parent.name}/{label}" if repeated else label
@@ -203,7 +203,7 @@ def name_runs(
     results: Sequence[Result],
     labels: Sequence[str],
 ) -> None:
-    """Title the axes; several runs are told apart by a legend below."""
+    """Title the axes; several runs are distinguished by a legend below."""
     if len(results) == 1:
         axes.set_title(title(subject, results[0], labels[0]))
     else:

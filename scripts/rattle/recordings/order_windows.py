@@ -1,7 +1,7 @@
 """Windows of the shaft angle: the mean angle of a run-up, and the orders of a signal about some angles.
 
 In each window sines of all orders, their amplitudes quadratic in the angle, are fitted to the samples as they
-were recorded: nothing is resampled, orders closer than a window resolves are told apart, each amplitude has a
+were recorded: nothing is resampled, orders closer than a window resolves are separated, each amplitude has a
 standard error. A Vold-Kalman filter, the best of four bandwidths, is off by more. Of the four orders of
 tests/user/run_up_truth.py, one in a resonance, the largest error is 0.2 % (filter 0.4 %), with a noise of
 0.3 1/min 7 % (8 %); with 0.05 1/min 1.7 % (2.0 %) beside an order 0.2 away, 1.3 % (2.0 %) crossed by a tone.

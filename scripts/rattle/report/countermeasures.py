@@ -45,8 +45,8 @@ def part(folder: Path, name: str, summaries: Mapping[str, Summary]) -> tuple[lis
     pairs.sort(key=lambda pair: -pair.now.force)
     seen, folds = [title], []
     for pair in pairs:
-        told = " ".join(words.sentences(pair))
-        seen.append(page.paragraph(f"{pair.name}: {told}" if len(pairs) > 1 else told))
+        reported = " ".join(words.sentences(pair))
+        seen.append(page.paragraph(f"{pair.name}: {reported}" if len(pairs) > 1 else reported))
         drawn = page.drawing(partial(draw, pair), CAPTION, f"{name} {pair.name} countermeasures")
         head, *rows = words.cells(pair)
         ranked = page.table(head, rows, kinds=["" for _ in head], kind="dense")

@@ -70,7 +70,7 @@ def solve(
     return usage.ru_utime + usage.ru_stime, wall, usage.ru_maxrss / 1024.0
 
 
-def told(place: Path, what: str) -> str:
+def reported(place: Path, what: str) -> str:
     """How many scenes the summary of the campaign says it of."""
     text = (place / f"{READY.stem}.summary.nml").read_text()
     return re.search(rf"scenes_{what}_in_this_run = (\d+)", text)[1]
@@ -81,10 +81,10 @@ def solved_alone(program: str, values: dict[str, float], place: Path) -> list[di
     text = rigid(place).read_text().partition("&campaign")[0].replace("task = 'campaign'", "name = 'one'")
     (place / "one.nml").write_text(text)
     call = [program, "--overwrite", "--output", str(place), *settings(values), str(place / "one.nml")]
-    told = subprocess.run([*call, "--check"], capture_output=True, text=True, check=True).stdout
+    reported = subprocess.run([*call, "--check"], capture_output=True, text=True, check=True).stdout
     subprocess.run([*call, "--quiet"], check=False)
     pairs: list[dict[str, list[float]]] = []
-    for name, numbers in re.findall(r"^! derived: (\S+) = ((?:(?:, )?[-+.\dE]+)+)", told, re.M):
+    for name, numbers in re.findall(r"^! derived: (\S+) = ((?:(?:, )?[-+.\dE]+)+)", reported, re.M):
         if name == "lubricant.viscosity":
             pairs.append({})
         pairs[-1][name] = [float(number) for number in numbers.split(", ")]
@@ -183,8 +183,8 @@ def main() -> None:
         processor, wall, memory = solve(options.program, options.threads, counts, RECORDED, place)
         print(
             f"{size} scenes on {options.threads} threads: {processor:.0f} s of processor time, {wall:.0f} s, "
-            f"{memory:.0f} MB, {told(place, 'failed')} failed, {told(place, 'beyond_model')} beyond the "
-            "model\n"
+            f"{memory:.0f} MB, {reported(place, 'failed')} failed, "
+            f"{reported(place, 'beyond_model')} beyond the model\n"
         )
         if options.sample == 0:
             return

@@ -70,7 +70,7 @@ SCENES = (
 ADDED = 1e3
 
 
-class Told:
+class Reported:
     """Largest acceleration [m/s2] and smallest film [m] of what has been seen of a motion."""
 
     def __init__(self, scene: Scene) -> None:
@@ -116,9 +116,9 @@ def gaps_of(scene: Scene, position: float) -> list[float]:
     return [position, scene.gap - position] if scene.gap > 0.0 else [position]
 
 
-def prototype(scene: Scene, films: list[Film], steps: int) -> Told:
+def prototype(scene: Scene, films: list[Film], steps: int) -> Reported:
     """Fixed steps, backward differences of second order, dense elimination."""
-    told = Told(scene)
+    reported = Reported(scene)
     n = films[0].nodes
     size = n * len(films) + 1
     position, pressures = at_rest(scene, films)
@@ -187,8 +187,8 @@ def prototype(scene: Scene, films: list[Film], steps: int) -> Told:
             old[-1],
             (position, velocity, [held(f, g, p) for f, g, p in zip(films, gaps, pressures, strict=True)]),
         ]
-        told.see(now, films, gaps, pressures)
-    return told
+        reported.see(now, films, gaps, pressures)
+    return reported
 
 
 def held(film: Film, gap: float, pressures: np.ndarray) -> np.ndarray:
@@ -196,7 +196,7 @@ def held(film: Film, gap: float, pressures: np.ndarray) -> np.ndarray:
     return gap * film.length + film.hollow + film.volume @ pressures
 
 
-def radau(scene: Scene, films: list[Film], tolerance: float) -> Told:
+def radau(scene: Scene, films: list[Film], tolerance: float) -> Reported:
     """scipy's Radau: states are position, velocity and pressures; cells hold what their volumes have."""
     n = films[0].nodes
     position, pressures = at_rest(scene, films)
@@ -245,10 +245,10 @@ def radau(scene: Scene, films: list[Film], tolerance: float) -> Told:
     )
     if not solved.success:
         raise ArithmeticError(solved.message)
-    told = Told(scene)
+    reported = Reported(scene)
     for now, y in zip(solved.t, solved.y.T, strict=True):
-        told.see(now, films, gaps_of(scene, y[0]), [y[rows] for _, _, _, rows, _ in parts(y)])
-    return told
+        reported.see(now, films, gaps_of(scene, y[0]), [y[rows] for _, _, _, rows, _ in parts(y)])
+    return reported
 
 
 def input_of(scene: Scene) -> str:
@@ -272,7 +272,7 @@ def input_of(scene: Scene) -> str:
 """
 
 
-def program_run(program: str, scene: Scene, nodes: int, accuracy: float, place: Path) -> Told:
+def program_run(program: str, scene: Scene, nodes: int, accuracy: float, place: Path) -> Reported:
     path = place / "scene.nml"
     path.write_text(input_of(scene))
     settings = ["--set", f"film.nodes={nodes}", "--set", f"solver.accuracy={accuracy}"]
@@ -285,13 +285,13 @@ def program_run(program: str, scene: Scene, nodes: int, accuracy: float, place: 
         for line in (place / "scene.summary.nml").read_text().splitlines()
         if " = " in line
     )
-    told = Told(scene)
-    told.peak = float(numbers["acceleration_maximum"])
-    told.film = min(float(numbers[k]) for k in ("film_minimum", "coast_film_minimum") if k in numbers)
-    return told
+    reported = Reported(scene)
+    reported.peak = float(numbers["acceleration_maximum"])
+    reported.film = min(float(numbers[k]) for k in ("film_minimum", "coast_film_minimum") if k in numbers)
+    return reported
 
 
-def spent(job: Callable[[], Told], children: bool) -> tuple[float, Told]:
+def spent(job: Callable[[], Reported], children: bool) -> tuple[float, Reported]:
     """Processor time of a job, or of the process that it starts [s]."""
 
     def clock() -> float:
@@ -299,13 +299,13 @@ def spent(job: Callable[[], Told], children: bool) -> tuple[float, Told]:
         return usage.ru_utime + usage.ru_stime if children else time.process_time()
 
     before = clock()
-    told = job()
-    return clock() - before, told
+    reported = job()
+    return clock() - before, reported
 
 
 def contenders(
     program: str, scene: Scene, place: Path
-) -> list[tuple[str, str, bool, Callable[[], Told], float]]:
+) -> list[tuple[str, str, bool, Callable[[], Reported], float]]:
     """Name, setting, whether it is a process, the job, and the seconds that it is known to take at least."""
     fine = 4096 if scene.gap else 256
     jobs: list = [
@@ -355,20 +355,20 @@ def main() -> None:
         for scene in SCENES:
             found = contenders(options.program, scene, Path(folder))
             times: list[list[float]] = [[] for _ in found]
-            told: list[Told | str] = ["" for _ in found]
+            reported: list[Reported | str] = ["" for _ in found]
             for turn in range(options.rounds):
                 for k, (_, _, children, job) in enumerate(found):
-                    if turn > 0 and (isinstance(told[k], str) or times[k][0] > options.limit):
+                    if turn > 0 and (isinstance(reported[k], str) or times[k][0] > options.limit):
                         continue
                     try:
-                        seconds, told[k] = spent(job, children)
+                        seconds, reported[k] = spent(job, children)
                         times[k].append(seconds)
                     except (ArithmeticError, np.linalg.LinAlgError) as stop:
-                        told[k] = str(stop)
+                        reported[k] = str(stop)
             base = statistics.median(times[0])
             for k, (name, setting, _, _) in enumerate(found):
                 start = f"| {scene.name} | {name} | {setting} | "
-                ended = told[k]
+                ended = reported[k]
                 if isinstance(ended, str):
                     print(f"{start}stopped: {ended} | | | |", flush=True)
                     continue

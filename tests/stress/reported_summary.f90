@@ -1,6 +1,6 @@
 !> What the program tells a user of a scene: solved and judged as a single scene is, as a row of a campaign, or as a
 !> value of a sweep, without their files. The only file of this study that knows how the program does that.
-module told_summary
+module reported_summary
    use verification, only: verification_sentence, verification_word
    use engine, only: ending_t, motion_state_t, request_t, start_of
    use errors, only: error_t
@@ -26,7 +26,7 @@ module told_summary
    private
 
    !> What the summary says.
-   type, public :: told_t
+   type, public :: reported_t
       !> Status as a word, and whether there is a window
       character(16) :: status = ''
       logical :: judged = .false., verified = .false.
@@ -42,12 +42,12 @@ module told_summary
       integer :: harmonic_count = 0
       !> Periods solved, periods of the window, and of the orbit of a steady motion (0: not steady)
       integer :: periods = 0, window = 0, orbit = 0
-      !> Periods after which the motion next to the one found repeats, 0: none is told
+      !> Periods after which the motion next to the one found repeats, 0: none is reported
       integer :: repeats = 0
       logical :: sampling_sufficient = .true.
-   end type told_t
+   end type reported_t
 
-   public :: rows_told, steps_expected, summary_told, value_told
+   public :: rows_reported, steps_expected, summary_reported, value_reported
 
 contains
 
@@ -74,43 +74,43 @@ contains
    end function steps_expected
 
    !> What the summary of a scene tells.
-   subroutine summary_told(drawn, told)
+   subroutine summary_reported(drawn, reported)
       !> The scene with its solver
       type(drawn_scene_t), intent(in) :: drawn
-      type(told_t), intent(out) :: told
+      type(reported_t), intent(out) :: reported
       type(judged_scene_t) :: result
       type(error_t), allocatable :: error
       integer :: n
 
       call solve_in_memory(drawn%scene, result, error)
-      told%status = status_name(result%status)
-      if (allocated(error)) told%status = 'not_written'
-      told%judged = is_success(result%status) .and. result%judged .and. .not. allocated(error)
-      if (.not. told%judged) return
-      told%class = quantity_word(quantity_rattle_class, result%rattle%class)
-      told%periods = result%ending%periods
-      told%window = result%window_periods
-      told%orbit = result%repeats_after
-      told%repeats = result%orbit%period
-      told%sampling_sufficient = result%rattle%spectrum%sampling_sufficient
-      told%extremes = extremes_of(result)
+      reported%status = status_name(result%status)
+      if (allocated(error)) reported%status = 'not_written'
+      reported%judged = is_success(result%status) .and. result%judged .and. .not. allocated(error)
+      if (.not. reported%judged) return
+      reported%class = quantity_word(quantity_rattle_class, result%rattle%class)
+      reported%periods = result%ending%periods
+      reported%window = result%window_periods
+      reported%orbit = result%repeats_after
+      reported%repeats = result%orbit%period
+      reported%sampling_sufficient = result%rattle%spectrum%sampling_sufficient
+      reported%extremes = extremes_of(result)
       n = min(compared_harmonics, size(result%rattle%spectrum%harmonics))
-      told%harmonic_count = n
-      told%harmonics(:n) = result%rattle%spectrum%harmonics(:n)
-      told%harmonic_errors = huge(1.0_dp)
-      told%extreme_errors = huge(1.0_dp)
+      reported%harmonic_count = n
+      reported%harmonics(:n) = result%rattle%spectrum%harmonics(:n)
+      reported%harmonic_errors = huge(1.0_dp)
+      reported%extreme_errors = huge(1.0_dp)
       associate (verification => result%verification)
-         told%verified = verification_word(verification) == 'verified'
-         if (verification%exists) told%reason = verification_sentence(verification)
+         reported%verified = verification_word(verification) == 'verified'
+         if (verification%exists) reported%reason = verification_sentence(verification)
          if (.not. allocated(verification%harmonic_errors)) return
          n = min(n, size(verification%harmonic_errors))
-         told%harmonic_errors(:n) = verification%harmonic_errors(:n)
+         reported%harmonic_errors(:n) = verification%harmonic_errors(:n)
          if (n == 0) return
-         told%extreme_errors = [verification%film_minimum_error, verification%film_maximum_error, &
+         reported%extreme_errors = [verification%film_minimum_error, verification%film_maximum_error, &
                                 verification%acceleration_minimum_error, verification%acceleration_maximum_error, &
-                                verification%film_error*told%extremes(5:)]
+                                verification%film_error*reported%extremes(5:)]
       end associate
-   end subroutine summary_told
+   end subroutine summary_reported
 
    !> Extremes of a judged scene.
    pure function extremes_of(judged) result(extremes)
@@ -127,7 +127,7 @@ contains
    end function extremes_of
 
    !> What a campaign tells of scenes that differ from a base in some keys.
-   subroutine rows_told(base, keys, values, verified, told)
+   subroutine rows_reported(base, keys, values, verified, reported)
       !> Base scene with its solver
       type(scene_t), intent(in) :: base
       !> Varied keys as a user writes them
@@ -136,8 +136,8 @@ contains
       real(dp), intent(in) :: values(:, :)
       !> Whether the class is to be verified
       logical, intent(in) :: verified
-      !> What is told of each scene
-      type(told_t), intent(out) :: told(:)
+      !> What is reported of each scene
+      type(reported_t), intent(out) :: reported(:)
       integer, parameter :: recorded(11) = [quantity_film_minimum, quantity_film_maximum, quantity_acceleration_minimum, &
          quantity_acceleration_maximum, quantity_coast_film_minimum, quantity_coast_film_maximum, quantity_rattle_class, &
          quantity_sampling_sufficient, quantity_orbit_period, quantity_periods_solved, quantity_harmonics], row_harmonics = 8
@@ -162,61 +162,61 @@ contains
       table = values
       call plan_table(positions, table, plan)
       first = 2 + size(keys)
-      allocate (rows(first + size(record) - 1 + row_harmonics, size(told)), space)
+      allocate (rows(first + size(record) - 1 + row_harmonics, size(reported)), space)
       call solve_scenes(scene, plan, 1_int64, space, rows, error)
       if (allocated(error)) then
-         told%status = 'not_written'
+         reported%status = 'not_written'
          return
       end if
-      do i = 1, size(told)
+      do i = 1, size(reported)
          associate (row => rows(first:, i))
-            told(i)%status = status_name(nint(row(1)))
-            told(i)%judged = is_success(nint(row(1)))
-            if (.not. told(i)%judged) cycle
-            told(i)%extremes = row(2:7)
-            if (.not. scene%contact%backlash > 0.0_dp) told(i)%extremes(5:) = 0.0_dp
-            told(i)%class = quantity_word(quantity_rattle_class, nint(row(8)))
-            told(i)%sampling_sufficient = row(9) > 0.5_dp
-            told(i)%orbit = nint(row(10))
-            told(i)%periods = nint(row(11))
-            told(i)%window = scene%spectrum%periods
+            reported(i)%status = status_name(nint(row(1)))
+            reported(i)%judged = is_success(nint(row(1)))
+            if (.not. reported(i)%judged) cycle
+            reported(i)%extremes = row(2:7)
+            if (.not. scene%contact%backlash > 0.0_dp) reported(i)%extremes(5:) = 0.0_dp
+            reported(i)%class = quantity_word(quantity_rattle_class, nint(row(8)))
+            reported(i)%sampling_sufficient = row(9) > 0.5_dp
+            reported(i)%orbit = nint(row(10))
+            reported(i)%periods = nint(row(11))
+            reported(i)%window = scene%spectrum%periods
             ! A motion that was found to repeat while it was followed is judged by one orbit, others by the whole window.
-            if (told(i)%orbit > 0 .and. nint(row(1)) == status_steady) told(i)%window = told(i)%orbit
-            told(i)%verification_asked = verified
-            if (verified) told(i)%verified = row(12) > 0.5_dp
+            if (reported(i)%orbit > 0 .and. nint(row(1)) == status_steady) reported(i)%window = reported(i)%orbit
+            reported(i)%verification_asked = verified
+            if (verified) reported(i)%verified = row(12) > 0.5_dp
             associate (before => size(record))
-               told(i)%harmonics(:row_harmonics) = row(before + 1:before + row_harmonics)
+               reported(i)%harmonics(:row_harmonics) = row(before + 1:before + row_harmonics)
             end associate
-            told(i)%harmonic_count = row_harmonics
+            reported(i)%harmonic_count = row_harmonics
          end associate
       end do
-   end subroutine rows_told
+   end subroutine rows_reported
 
    !> What a sweep tells of a value.
-   subroutine value_told(scene, state, told)
+   subroutine value_reported(scene, state, reported)
       !> Scene with that value
       type(scene_t), intent(in) :: scene
       !> State that the value before has left, none: no film; on return that for the next one
       type(carried_state_t), intent(inout) :: state
-      type(told_t), intent(out) :: told
+      type(reported_t), intent(out) :: reported
       type(error_t), allocatable :: error
       type(judged_scene_t) :: judged
       type(judgement_space_t) :: space
 
       call solve_value(scene, state, space, judged, error)
-      told%status = status_name(judged%status)
-      told%judged = is_success(judged%status) .and. .not. allocated(error)
-      told%verification_asked = .false.
-      if (.not. told%judged) return
-      told%extremes = extremes_of(judged)
-      told%class = quantity_word(quantity_rattle_class, judged%rattle%class)
+      reported%status = status_name(judged%status)
+      reported%judged = is_success(judged%status) .and. .not. allocated(error)
+      reported%verification_asked = .false.
+      if (.not. reported%judged) return
+      reported%extremes = extremes_of(judged)
+      reported%class = quantity_word(quantity_rattle_class, judged%rattle%class)
       ! The window is the orbit of a motion found steady.
-      told%window = scene%spectrum%periods
-      if (judged%ending%periods < scene%solver%periods) told%orbit = judged%orbit%period
-      if (told%orbit > 0) told%window = told%orbit
-      told%periods = judged%ending%periods
-      told%harmonics(1) = judged%rattle%spectrum%harmonics(1)
-      told%harmonic_count = 1
-   end subroutine value_told
+      reported%window = scene%spectrum%periods
+      if (judged%ending%periods < scene%solver%periods) reported%orbit = judged%orbit%period
+      if (reported%orbit > 0) reported%window = reported%orbit
+      reported%periods = judged%ending%periods
+      reported%harmonics(1) = judged%rattle%spectrum%harmonics(1)
+      reported%harmonic_count = 1
+   end subroutine value_reported
 
-end module told_summary
+end module reported_summary

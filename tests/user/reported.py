@@ -7,7 +7,7 @@ import re
 from decimal import ROUND_CEILING, Decimal
 
 SMALLEST_PLAIN, LARGEST_PLAIN = 1e-3, 1e6  # between which a log writes no exponent
-# The word of a code that people are told in other words.
+# The word of a code that people are reported in other words.
 SPOKEN = {"irregular_so_far": "irregular so far"}
 ANY = "*"  # in an expected text: what no file tells, as the time that something took
 
@@ -37,8 +37,8 @@ def counted(number: int, noun: str) -> str:
     return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
-def assert_told(found: list[str], expected: list[str | None]) -> None:
-    """Text by text the same; None stands for what is not told this time, `ANY` for a number of any value."""
+def assert_reported(found: list[str], expected: list[str | None]) -> None:
+    """Text by text the same; None stands for what is left out this time, `ANY` for a number of any value."""
     wanted = [text for text in expected if text is not None]
     for place, (one, other) in enumerate(zip(found, wanted, strict=False)):
         form = re.escape(other).replace(re.escape(ANY), r"[-+\d.E]+")

@@ -1,6 +1,6 @@
 """Random scenes alone, as rows of campaigns, as values of sweeps: is every quantity the same to the last bit?
 
-    python tests/stress/told_alike.py build/rattle [--groups 25] [--first 1]
+    python tests/stress/reported_alike.py build/rattle [--groups 25] [--first 1]
 
 The scenes of a group share film law, flanks and elasticity, and differ in eight numbers. Each is solved
 alone, all of them in one campaign with the same settings, and each as the first value of a sweep, which
@@ -104,7 +104,7 @@ class Difference:
 
 
 def differences(program: Path, number: int, folder: Path) -> Iterator[Difference]:
-    """What the scenes of a group are told with other bits."""
+    """What the scenes of a group are reported with other bits."""
     shared, scenes = draw(number)
     recorded = gear_rows.recordable(program)
     names = list(scenes[0])
@@ -150,18 +150,18 @@ def differences(program: Path, number: int, folder: Path) -> Iterator[Difference
 
 def numbers_of(summary: dict) -> dict[str, float]:
     """What a summary tells, as numbers."""
-    told = {}
+    reported = {}
     if "verification" in summary:
-        told["verified"] = float(str(summary["verification"]).strip() == "verified")
+        reported["verified"] = float(str(summary["verification"]).strip() == "verified")
     for name, value in summary.items():
         if name == "harmonics":
-            told |= {f"harmonic_{n}": float(harmonic) for n, harmonic in enumerate(value[:8], 1)}
+            reported |= {f"harmonic_{n}": float(harmonic) for n, harmonic in enumerate(value[:8], 1)}
         elif name in CODES and isinstance(value, str):
             words = {word: code for code, word in CODES[name].items()}
-            told[name] = float(words.get(value.strip(), np.nan))
+            reported[name] = float(words.get(value.strip(), np.nan))
         elif isinstance(value, (bool, int, float)):
-            told[name] = float(value)
-    return told
+            reported[name] = float(value)
+    return reported
 
 
 def compared(alone: dict, other: dict, which: str, where: str) -> Iterator[Difference]:
@@ -206,7 +206,7 @@ def main() -> int:
             for one in differences(options.program.resolve(), number, Path(folder)):
                 found.add(one.where)
                 print(f"{one.where}: {one.quantity} {one.alone!r} and {one.other!r}, {one.which}", flush=True)
-    print(f"{options.groups * SCENES} scenes, {len(found)} told otherwise alone, in a row or in a sweep")
+    print(f"{options.groups * SCENES} scenes, {len(found)} reported otherwise alone, in a row or in a sweep")
     return int(bool(found))
 
 

@@ -1,4 +1,4 @@
-"""No error has more than two digits, nor is it told smaller than the digits of its number let it be known."""
+"""No error has more than two digits, nor is it smaller than the digits of its number let it be known."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from decimal import Decimal
 import numpy as np
 import pytest
 from report_reader import read_page
+from reported import stated_error
 from script_calls import call_script
 from test_report import report
 from test_thresholds import threshold_text
-from told import stated_error
 
 import rattle
 from rattle import rounding
@@ -41,21 +41,21 @@ def last_place(shown: str) -> float:
     return float(Decimal(1).scaleb(Decimal(shown).as_tuple().exponent))
 
 
-def assert_told(error: str, number: str, bound: float) -> None:
+def assert_reported(error: str, number: str, bound: float) -> None:
     """An error beside its number: two digits, the bound of the summary and the rounding, and no more."""
-    told, least = float(error), max(bound, 0.5 * last_place(number))
+    reported, least = float(error), max(bound, 0.5 * last_place(number))
     assert len(digits(error)) <= 2, error
-    assert least * (1.0 - 1e-9) <= told <= 1.1 * least * (1.0 + 1e-9), (error, number, bound)
+    assert least * (1.0 - 1e-9) <= reported <= 1.1 * least * (1.0 + 1e-9), (error, number, bound)
 
 
 def test_errors_in_logs(solved):
     for path in solved:
-        told = rattle.read_summary(path)
+        reported = rattle.read_summary(path)
         log = path.with_name(path.name.replace(".summary.nml", ".log"))
         if not log.exists():  # that of the gearbox
             log = path.with_name("gearbox.log")
         text = log.read_text()
-        text = text[text.index(f"scene {told['name']}:") :]
+        text = text[text.index(f"scene {reported['name']}:") :]
         film, low, high = re.search(
             r"  film (\S+) to \S+ um, acceleration (\S+) to (\S+) m/s2", text
         ).groups()
@@ -64,9 +64,9 @@ def test_errors_in_logs(solved):
             r"of the extremes of the acceleration (\S+) and (\S+) m/s2",
             text,
         ).groups()
-        assert_told(of_low, low, told["acceleration_minimum_error"])
-        assert_told(of_high, high, told["acceleration_maximum_error"])
-        assert_told(of_film, "1.0000", told["film_error"])
+        assert_reported(of_low, low, reported["acceleration_minimum_error"])
+        assert_reported(of_high, high, reported["acceleration_maximum_error"])
+        assert_reported(of_film, "1.0000", reported["film_error"])
         assert float(of_film) * float(film) >= 0.5 * last_place(film) * (1.0 - 1e-9)
         for number, error in re.findall(r"(\S+) \+- (\S+) a period", text):
             assert len(digits(error)) <= 2 and float(error) >= 0.5 * last_place(number)
@@ -74,18 +74,18 @@ def test_errors_in_logs(solved):
 
 def test_errors_in_summaries(solved):
     for path in solved:
-        told, text = rattle.read_summary(path), path.read_text()
-        names = [name for name in told if name.endswith("_error")]
-        flanks = sum(f"impacts_per_period_{flank}" in told for flank in ("drive", "coast"))
+        reported, text = rattle.read_summary(path), path.read_text()
+        names = [name for name in reported if name.endswith("_error")]
+        flanks = sum(f"impacts_per_period_{flank}" in reported for flank in ("drive", "coast"))
         assert len(names) == 10 + 2 * flanks
         for name in names:
             shown = re.search(rf"^   {name} = (\S+)$", text, re.MULTILINE)[1]
-            number = told.get(name.removesuffix("_error"), 1.0)
+            number = reported.get(name.removesuffix("_error"), 1.0)
             assert len(digits(shown.removesuffix(".0"))) <= 2
-            assert told[name] >= 0.5 * np.spacing(abs(number))
+            assert reported[name] >= 0.5 * np.spacing(abs(number))
         errors = re.search(r"harmonic_errors = ([^=]*)\n   \w+ =", text)[1].replace(",", " ").split()
         assert len(errors) > 0
-        for shown, number in zip(errors, told["harmonics"], strict=False):
+        for shown, number in zip(errors, reported["harmonics"], strict=False):
             assert len(digits(shown.removesuffix(".0"))) <= 2
             assert float(shown) >= 0.5 * np.spacing(number)
 
@@ -102,32 +102,32 @@ SCALES = {"m": 1.0, "\N{MICRO SIGN}m": 1e-6, "nm": 1e-9}
 
 def assert_cells(error: str, number: str, bound: float) -> None:
     """The same of cells of a page, whose numbers have six digits, zeros at the end left out."""
-    (told, own), (shown, unit) = plain(error), plain(number)
+    (reported, own), (shown, unit) = plain(error), plain(number)
     scale = SCALES.get(own, 1.0)
     value = float(shown) * SCALES.get(unit, 1.0)
     assert (own in SCALES) == (unit in SCALES) and (own == unit or own in SCALES)
     if value:
-        assert_told(told, f"{value / scale:.5e}", bound / scale)
-    assert len(digits(told)) <= 2
+        assert_reported(reported, f"{value / scale:.5e}", bound / scale)
+    assert len(digits(reported)) <= 2
 
 
 @pytest.mark.long
 def test_errors_in_reports(solved):
     names = {quantity.meaning.rstrip("."): name for name, quantity in rattle.codes.QUANTITIES.items()}
     for path in solved:
-        told = rattle.read_summary(path)
+        reported = rattle.read_summary(path)
         page = read_page(report(path.with_name(path.name.replace(".summary.nml", ".rattle"))))
         extremes = next(table for table in page.tables if table[0] == ["", "Value", "Error at most"])
         assert len(extremes) == 5
         for meaning, number, error in extremes[1:]:
-            assert_cells(error, number, told[f"{names[meaning]}_error"])
+            assert_cells(error, number, reported[f"{names[meaning]}_error"])
         lines = next(table for table in page.tables if table[0][0] == "Harmonic")
-        for (*_, number, error), bound in zip(lines[1:], told["harmonic_errors"], strict=False):
+        for (*_, number, error), bound in zip(lines[1:], reported["harmonic_errors"], strict=False):
             assert_cells(error, number, bound)
         rows = {row[0]: row[1] for row in page.tables[2][1:]}
         for name, cell in rows.items():
             if name.endswith("_error"):
-                assert_cells(cell, rows.get(name.removesuffix("_error"), "1"), told[name])
+                assert_cells(cell, rows.get(name.removesuffix("_error"), "1"), reported[name])
 
 
 def test_errors_of_scenes_side_by_side(solved):
@@ -136,7 +136,7 @@ def test_errors_of_scenes_side_by_side(solved):
     lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in done.stdout.splitlines()]
     rows = {words: cells for words, *cells in lines}
     for path, film, error in zip(solved, rows["film thickness [um]"], rows["error of the film"], strict=True):
-        assert_told(error, "1.0000", rattle.read_summary(path)["film_error"])
+        assert_reported(error, "1.0000", rattle.read_summary(path)["film_error"])
         least = film.partition(" to ")[0]
         assert float(error) * float(least) >= 0.5 * last_place(least) * (1.0 - 1e-9)
 
@@ -156,13 +156,13 @@ def test_widths_of_thresholds(run, scene_text, tmp_path):
         assert_cells(row[place], row[place - 1], width)
 
 
-@pytest.mark.parametrize("digits_told", (4, 5, 6))
-def test_errors_are_stated_by_one_rule(digits_told):
+@pytest.mark.parametrize("digits_reported", (4, 5, 6))
+def test_errors_are_stated_by_one_rule(digits_reported):
     random = np.random.default_rng(7)
     numbers = random.choice([-1.0, 1.0], 500) * 10.0 ** random.uniform(-12.0, 9.0, 500)
     for number, share in zip(numbers, 10.0 ** random.uniform(-18.0, 1.0, 500), strict=True):
         error = abs(number) * share
-        expected = stated_error(error, number, digits_told)
-        found = rounding.stated_error(error, number, digits_told)
-        assert found == expected == rounding.stated_error(found, number, digits_told)
-    assert rounding.stated_error(0.0, 0.0, digits_told) == 0.0
+        expected = stated_error(error, number, digits_reported)
+        found = rounding.stated_error(error, number, digits_reported)
+        assert found == expected == rounding.stated_error(found, number, digits_reported)
+    assert rounding.stated_error(0.0, 0.0, digits_reported) == 0.0
