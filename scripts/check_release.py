@@ -26,7 +26,7 @@ def sections(changelog: str) -> Iterator[tuple[str, list[str]]]:
 
 
 def faults(version: str, changelog: str, citation: str, tag: str) -> Iterator[str]:
-    """One sentence per place that tells the release otherwise.
+    """One sentence per place that has another release.
 
     `tag` is the message of the tag of this version, empty where there is none.
     """

@@ -45,7 +45,7 @@ def design() -> int:
 
 
 def analyse() -> int:
-    """Tell the indices of a result, and draw them."""
+    """Report the indices of a result, and draw them."""
     parser = argparse.ArgumentParser(
         description="Print how much of the variance of what a campaign recorded each varied key explains: "
         "alone (first order) and with all others (total), with 95 % intervals; and how likely a pair is to "

@@ -16,7 +16,7 @@ module campaign_progress
    !> What a thread takes at a time takes a few seconds: only then it is seen that a line is due [s]
    real(dp), parameter :: terminal_interval = 0.5_dp, line_interval = 6.0_dp, file_interval = 5.0_dp
 
-   !> Progress so far. Threads add to the counts; each of them tells.
+   !> Progress so far. Threads add to the counts; each of them reports.
    type, public :: campaign_progress_t
       integer(int64) :: scenes = 0_int64, done_before = 0_int64
       !> Of the scenes that this run has solved, by module row_counts
@@ -33,7 +33,7 @@ module campaign_progress
       procedure :: start
       procedure :: add
       procedure :: is_due
-      procedure :: tell
+      procedure :: report
       procedure :: add_up
       procedure :: finish
    end type campaign_progress_t
@@ -75,7 +75,7 @@ contains
       end do
    end subroutine add
 
-   !> Whether it is time to tell.
+   !> Whether it is time to report.
    logical function is_due(self)
       class(campaign_progress_t), intent(in) :: self
       real(dp) :: now
@@ -88,8 +88,8 @@ contains
       !$omp end critical (sentences)
    end function is_due
 
-   !> Tell, if it is time to, and no other thread makes texts.
-   subroutine tell(self, log, done)
+   !> Report, if it is time to, and no other thread makes texts.
+   subroutine report(self, log, done)
       class(campaign_progress_t), intent(inout) :: self
       !> Log of the campaign
       type(log_t), intent(in) :: log
@@ -103,7 +103,7 @@ contains
       if (now - self%written > file_interval) call write_progress(self, now)
       if (now - self%last_report >= merge(terminal_interval, line_interval, self%on_terminal)) call report_line(self, log, now)
       !$omp end critical (sentences)
-   end subroutine tell
+   end subroutine report
 
    !> A line that is written over on a terminal, one more elsewhere.
    subroutine report_line(self, log, now)

@@ -202,7 +202,7 @@ contains
       !$omp end parallel
    end subroutine solve_chunks
 
-   !> Tell the progress, if it is time to.
+   !> Report the progress, if it is time to.
    subroutine tell_progress(results, progress, log)
       type(campaign_file_t), intent(in) :: results
       type(campaign_progress_t), intent(inout) :: progress
@@ -210,9 +210,9 @@ contains
 
       if (.not. progress%is_due()) return
       if (rank_count() > 1) then
-         call progress%tell(log, results%scenes_done())
+         call progress%report(log, results%scenes_done())
       else
-         call progress%tell(log)
+         call progress%report(log)
       end if
    end subroutine tell_progress
 

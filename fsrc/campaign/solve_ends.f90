@@ -94,7 +94,7 @@ contains
             exit
          end if
          if (this_rank() == 0) then
-            if (omp_get_thread_num() == 0) call progress%tell(log)
+            if (omp_get_thread_num() == 0) call progress%report(log)
          end if
       end do
       !$omp end parallel

@@ -176,7 +176,7 @@ contains
       if (outcome%age() > state_interval) call save_outcome(scene, threshold, outcome, log)
    end subroutine solve_points
 
-   !> Tell the progress, and keep the state, if it is time to.
+   !> Report the progress, and keep the state, if it is time to.
    subroutine keep_up(scene, threshold, wanted, testing, answers, progress, log, outcome)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
@@ -190,7 +190,7 @@ contains
       type(outcome_t) :: so_far
       real(dp), allocatable :: copied(:, :)
 
-      call progress%tell(log)
+      call progress%report(log)
       if (rank_count() > 1) return
       if (outcome%age() < state_interval) return
       !$omp critical (threshold_answers)

@@ -44,7 +44,7 @@ module table_task
    contains
       !> Plan the table and look at its scenes
       procedure(prepare_table), deferred :: prepare
-      !> What --check tells of a prepared task
+      !> What --check reports of a prepared task
       procedure(words_of_table), deferred :: check_lines
       !> Open the files on rank 0, and count what an earlier run has solved
       procedure(step_of_table), deferred :: open_files
@@ -52,7 +52,7 @@ module table_task
       procedure(words_of_table), deferred :: heading
       !> Further lines of the log
       procedure(report_of_table), deferred :: report_start
-      !> Solve on the threads of all ranks, which know nothing of the files yet, until all is done or a signal asks to stop
+      !> Solve on the threads of all ranks, without access to the files yet, until all is done or a signal asks to stop
       procedure(step_of_table), deferred :: solve
       !> Write result and summary, and say in the log what became of the task; what has failed before comes in as the error
       procedure(ending_of_table), deferred :: close_files
@@ -219,7 +219,7 @@ contains
       end if
    end subroutine open_task
 
-   !> Once the look at the scenes takes long, take the place of the files and begin the log; from then on tell how far it is.
+   !> Once the look at the scenes takes long, take the place of the files and begin the log; from then on report how far it is.
    subroutine note_seen(self, seen, all)
       class(opening_t), intent(inout) :: self
       integer(int64), intent(in) :: seen
@@ -243,7 +243,7 @@ contains
          call self%progress%start(progress_path(self%scene), all, 0_int64, self%quiet)
       end if
       self%progress%looked_at = seen
-      if (self%progress%is_due()) call self%progress%tell(self%log)
+      if (self%progress%is_due()) call self%progress%report(self%log)
    end subroutine note_seen
 
    !> Leave the place of the files as it was, as nothing will be solved.
@@ -283,7 +283,7 @@ contains
       type(scene_t), intent(in) :: scene
       !> Its input, for the faults
       character(*), intent(in) :: file
-      !> What to tell
+      !> What to report
       character(:), allocatable, intent(out) :: lines
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults

@@ -149,7 +149,7 @@ contains
       end do
    end subroutine find_seeds
 
-   !> Follow all motions of a side, and tell the one that comes farthest.
+   !> Follow all motions of a side, and report the one that comes farthest.
    subroutine follow_all(family, side, own, direction, first_step, seeds, farthest, code)
       type(scene_family_t), intent(inout) :: family
       !> Side of the criterion that is followed

@@ -42,7 +42,7 @@ module flank_contact
       real(dp), dimension(most_films) :: value, by_film, by_other
    end type film_equations_t
 
-   !> What the state of a flank whose film is solved in nodes tells of it: its minimum film thickness, its largest pressure, the gap
+   !> What the state of a flank with a film in nodes reports of it: its minimum film thickness, its largest pressure, the gap
    !> that the gear leaves, the film at the largest pressure, and the one in the middle. The pressures themselves stay with the
    !> engine.
    integer, parameter, public :: of_smallest_film = 1, of_pressure = 2, of_gap = 3, of_film_at_pressure = 4, of_central_film = 5
@@ -50,7 +50,7 @@ module flank_contact
                                                   'central_film']
    character(*), parameter :: nodal_units(5) = [character(2) :: 'm', 'Pa', 'm', 'm', 'm']
 
-   !> Slope of the load over the velocity of a film without squeeze, over that slope where it tells no velocity any more
+   !> Slope of the load over the velocity of a film without squeeze, over that slope where it gives no velocity any more
    real(dp), parameter :: flattest = 1.0e3_dp
 
    public :: contact_of, contact_words, is_elastic, is_damped, carries_positive_loads, keeps_load, is_costly, inner_count, &
@@ -234,9 +234,9 @@ contains
       if (outcome /= load_carried) velocity = near
    end function velocity_under
 
-   !> Equations of films without a state of their own: those of velocities where a load tells its velocity. A short step leaves the
-   !> load where it is, but not the velocity of the film, and where loads hardly tell it an equation of them would be far from
-   !> linear. Of a film that may pull or holds on to a part of its load it is so until that part is all that is left, which tells no
+   !> Equations of films without a state of their own: those of velocities where a load gives its velocity. A short step leaves the
+   !> load where it is, but not the velocity of the film, and where loads hardly give it an equation of them would be far from
+   !> linear. Of a film that may pull or holds on to a part of its load it is so until that part is all that is left, which gives no
    !> velocity: from there on where the step is so short that a load that changes moves the velocity by more than the law says.
    pure subroutine equations_of_films(contact, n, thickness, load, velocity, follows, equations)
       type(flank_contact_t), intent(in) :: contact
@@ -268,7 +268,7 @@ contains
       end associate
    end subroutine equations_of_films
 
-   !> Whether the load of a film that may pull, or holds on to a part of it, tells its velocity.
+   !> Whether the load of a film that may pull, or holds on to a part of it, gives its velocity.
    pure logical function tells_velocity(contact, thickness, velocity_by_load, follows, outcome)
       type(flank_contact_t), intent(in) :: contact
       !> h [m], slope of its velocity at the load [m/(N s)]

@@ -7,7 +7,7 @@
 !>     dy = -J^-1 (r + r_h dh + r_h' dh') ,      W = W_i + W_y dy + W_h dh + W_h' dh' ,
 !>
 !> so that what the gear sees of a contact is a load at each node with slopes in the films and velocities at all nodes (Schur's
-!> complement): its equations are as many as without the state, and the contacts know nothing of each other. Once the gear has
+!> complement): its equations are as many as without the state, and the contacts are independent of each other. Once the gear has
 !> found dh and dh', `follow_film` brings the state after.
 module inner_step
    use film_law, only: overflow_load

@@ -1,7 +1,7 @@
 !> Files that are written byte by byte, with every failure seen. The runtime's own unformatted and stream
 !> output forgets that the disk was full when it empties its buffer; hence this one.
 !>
-!> A file is written beside its place, under a name that nobody can foresee, and put there when it is complete, or as soon as what
+!> A file is written beside its place, under a name that no one can foresee, and put there when it is complete, or as soon as what
 !> it holds makes sense. Until then whatever stands at the place stays as it is.
 module byte_file
    use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_loc
@@ -217,7 +217,7 @@ contains
       if (self%broken .and. .not. self%placed) call delete_file(new_path(self%path))
    end subroutine close_file
 
-   !> See that nobody has taken the file away: what is written into a file without a name is lost.
+   !> See that no one has taken the file away: what is written into a file without a name is lost.
    subroutine expect_at_place(self, error)
       class(byte_file_t), intent(inout) :: self
       !> Set if it does not stand where it should

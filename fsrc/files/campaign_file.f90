@@ -315,7 +315,7 @@ contains
       if (.not. allocated(error)) self%checksums(chunk:last_chunk) = sums
    end subroutine write_chunks
 
-   !> Scenes that are done, by all ranks as far as the file tells.
+   !> Scenes that are done, by all ranks as far as the file shows.
    integer(int64) function scenes_done(self)
       class(campaign_file_t), intent(in) :: self
       integer(int64) :: checksums(self%header%chunk_count), chunk, first, last
@@ -373,7 +373,7 @@ contains
       finished = finished .and. .not. allocated(error)
    end subroutine close_campaign
 
-   !> See that nobody has taken the file away: what is written into a file without a name is lost.
+   !> See that no one has taken the file away: what is written into a file without a name is lost.
    subroutine expect_at_place(self, error)
       class(campaign_file_t), intent(in) :: self
       !> Set if it does not stand at its path

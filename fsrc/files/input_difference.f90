@@ -37,32 +37,32 @@ contains
          if (len(new(i)%key) == 0 .or. may_differ(new(i), free)) cycle
          place = find(old, new(i))
          if (place == 0) then
-            call tell(key_name(new(i))//' is '//values_text(new(i))//' now and was not set')
+            call report(key_name(new(i))//' is '//values_text(new(i))//' now and was not set')
          else if (values_text(old(place)) /= values_text(new(i))) then
-            call tell(different_values(old(place), new(i)))
+            call report(different_values(old(place), new(i)))
          end if
       end do
       do i = 1, size(old)
          if (len(old(i)%key) == 0 .or. may_differ(old(i), free)) cycle
-         if (find(new, old(i)) == 0) call tell(key_name(old(i))//' was '//values_text(old(i))//' and is not set now')
+         if (find(new, old(i)) == 0) call report(key_name(old(i))//' was '//values_text(old(i))//' and is not set now')
       end do
       do i = 1, size(tables)
          if (lines_of(stored, trim(tables(i))) /= lines_of(current, trim(tables(i)))) &
-            call tell(trim(tables(i))//' holds other rows now')
+            call report(trim(tables(i))//' holds other rows now')
       end do
       if (reported > most_reported) sentence = sentence//'; and '//counted(reported - most_reported, 'key')//' more'
 
    contains
 
       !> Put a difference behind the others.
-      subroutine tell(words)
+      subroutine report(words)
          character(*), intent(in) :: words
 
          reported = reported + 1
          if (reported > most_reported) return
          if (reported > 1) sentence = sentence//'; '
          sentence = sentence//words
-      end subroutine tell
+      end subroutine report
 
    end function differing_keys
 

@@ -64,7 +64,7 @@ contains
       if (self%descriptor >= 0_c_int .and. lost_text() /= self%path) call write_line(self%descriptor, text, self%path)
    end subroutine log_line
 
-   !> Close the log. One that lost its first word is taken away: no later run could tell that it was a log.
+   !> Close the log. One that lost its first word is taken away: no later run could see that it was a log.
    subroutine close_log(self)
       class(log_t), intent(inout) :: self
       type(file_state_t) :: state

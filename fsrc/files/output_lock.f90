@@ -1,8 +1,8 @@
 !> Keeps two runs from writing the same files: while a run lasts it holds the lock of STEM.lock, a file that goes with the end of
-!> the run and tells by which word the run calls what it puts beside its files. One that a killed run has left stops nobody, and
+!> the run and shows by which word the run calls what it puts beside its files. One that a killed run has left stops no one, and
 !> what that run has left beside its files is taken away.
 !>
-!> Where the file system knows no locks, the file tells which run began last: it wins, and the others keep nothing. A run that
+!> Where the file system knows no locks, the file shows which run began last: it wins, and the others keep nothing. A run that
 !> gives up hands the lock back to the one before, which may be at work still.
 module output_lock
    use byte_file, only: own_word

@@ -47,7 +47,7 @@ contains
       self%last = self%started
    end subroutine start_progress
 
-   !> A period is done. The thread that tells it computes.
+   !> A period is done. The thread that reports it computes.
    subroutine period_done(self, done, all)
       class(progress_t), intent(inout) :: self
       !> Periods solved

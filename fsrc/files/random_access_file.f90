@@ -193,7 +193,7 @@ contains
       call self%write_all(offset, size(bytes, kind=int64), bytes, error)
    end subroutine write_reals_at
 
-   !> Read text; `complete` tells whether the file went so far.
+   !> Read text; `complete` shows whether the file went so far.
    subroutine read_text_at(self, offset, text, complete)
       class(random_access_file_t), intent(in) :: self
       !> Bytes before it
@@ -206,7 +206,7 @@ contains
       call self%read_all(offset, len(text, int64), text, complete)
    end subroutine read_text_at
 
-   !> Read numbers; `complete` tells whether the file went so far.
+   !> Read numbers; `complete` shows whether the file went so far.
    subroutine read_reals_at(self, offset, numbers, complete)
       class(random_access_file_t), intent(in) :: self
       !> Bytes before them

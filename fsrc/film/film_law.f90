@@ -158,7 +158,7 @@ contains
 
       kernel = 0
       if (choice%law == law_elastohydrodynamic) then
-         ! The closure tells what is asked before the films of a motion are solved in nodes.
+         ! The closure shows what is asked before the films of a motion are solved in nodes.
          if (choice%model == model_closure .or. choice%model == model_resolved) kernel = kernel_closure
       else if (choice%model == model_reynolds) then
          if (choice%law == law_iso_viscous) kernel = kernel_reynolds_iso

@@ -79,7 +79,7 @@ contains
       !> A [-]
       real(dp), intent(out) :: a
       real(dp), intent(out) :: a_by_load
-      !> Bits of a number below those that tell its piece
+      !> Bits of a number below those that show its piece
       integer, parameter :: piece_bits = digits(1.0_dp) - 1 - exponent(real(octave_pieces, dp)) + 1
       real(dp) :: deviation, slope
       integer :: piece, i

@@ -42,7 +42,7 @@ module checksum
 
 contains
 
-   !> Checksum of a table of numbers, by their bits in the order of its storage: it tells 0 from -0, and one NaN from another.
+   !> Checksum of a table of numbers, by their bits in order of storage: it distinguishes 0 from -0, and one NaN from another.
    pure integer(int64) function checksum_of_table(numbers)
       !> Any numbers, NaN and infinities included
       real(dp), contiguous, intent(in) :: numbers(:, :)

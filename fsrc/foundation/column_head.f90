@@ -22,7 +22,7 @@ module column_head
       type(unit_t) :: unit
    end type column_head_t
 
-   !> An axis as its head tells it.
+   !> An axis as its head shows it.
    type, public :: axis_unit_t
       !> One of the above
       integer :: kind = no_axis
@@ -159,7 +159,7 @@ contains
       is_usual_ending = is_usual_ending .and. index(word, '/') == 0
    end function is_usual_ending
 
-   !> The axis that a head tells of; none if it names something else.
+   !> The axis that a head reports; none if it names something else.
    pure function axis_of(text, row) result(axis)
       !> As it stands in the first line
       character(*), intent(in) :: text

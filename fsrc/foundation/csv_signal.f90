@@ -1,4 +1,4 @@
-!> A recorded signal from a CSV file: a column of uniform samples. A column of time or angle tells where the samples stand.
+!> A recorded signal from a CSV file: a column of uniform samples. A column of time or angle shows where the samples stand.
 module csv_signal
    use column_head, only: axis_of, axis_unit_t, column_head_t, conversion, head_of, no_axis
    use csv_table, only: csv_table_t
@@ -131,7 +131,7 @@ contains
             other = i
          end if
       end do
-      ! Names of what is no table of numbers are nobody's business.
+      ! Names of what is no table of numbers are private.
       if (.not. table%has_numbers()) list = ', which are not known: the line below is no line of as many numbers'
       if (len(column) == 0 .and. size(table%names) == 1) then
          chosen = 1

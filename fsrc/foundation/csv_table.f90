@@ -1,6 +1,6 @@
 !> Numbers of a CSV file as people write it: a header with names, perhaps a row of units, then lines of numbers. Lines that begin with
 !> '#' are comments, empty ones are skipped. What is wrong is reported with its line and column, never with what stands there: a path may
-!> lead to a file that is nobody's business.
+!> lead to a file that is private.
 module csv_table
    use csv_fields, only: csv_text_t, field_t
    use errors, only: fault_list_t

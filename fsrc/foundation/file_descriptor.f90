@@ -143,7 +143,7 @@ contains
    !> See that everything written stands on the disk itself.
    subroutine synchronise_descriptor(descriptor, stands)
       integer(c_int), intent(in) :: descriptor
-      !> Whether it does; also where the file system cannot tell
+      !> Whether it does; also where the file system cannot say
       logical, intent(out) :: stands
 
       do
@@ -232,7 +232,7 @@ contains
       complete = done == count
    end subroutine write_bytes
 
-   !> Wait until a standard descriptor takes bytes. Where nobody reads, a signal ends the waiting.
+   !> Wait until a standard descriptor takes bytes. Where no one reads, a signal ends the waiting.
    logical function takes_bytes(descriptor)
       integer(c_int), intent(in) :: descriptor
       !> A signal may come between the look at it and the waiting [ms]

@@ -316,7 +316,7 @@ contains
       call c_globfree(answer)
    end subroutine found_files
 
-   !> Sixteen letters that nobody can foresee.
+   !> Sixteen letters that no one can foresee.
    function random_word() result(word)
       character(16) :: word
       integer(c_int64_t) :: number

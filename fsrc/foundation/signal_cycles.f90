@@ -88,7 +88,7 @@ contains
    pure function fault_of_cycle(samples, may_repeat) result(message)
       !> Four and more
       real(dp), intent(in) :: samples(:)
-      !> Whether nothing else tells that the last sample is not the first of the next cycle
+      !> Whether nothing else shows that the last sample is not the first of the next cycle
       logical, intent(in) :: may_repeat
       character(:), allocatable :: message
       real(dp), parameter :: rounding = 1.0e-9_dp

@@ -18,7 +18,7 @@ module signal_outliers
 
    !> Fewer samples, of a cycle or of a row that ends, have no usual step
    integer, parameter :: fewest = 16, fewest_of_row = 9
-   !> Steps on each side that a sample is held against, and the share of them that must be smaller by a factor
+   !> Steps on each side that a sample is compared with, and the share of them that must be smaller by a factor
    integer, parameter :: neighbours = 10
    real(dp), parameter :: usual_share = 0.75_dp, far = 8.0_dp
    !> Share of the range of all others below which nothing is in question, and what the sides of it may differ by, of its height

@@ -35,7 +35,7 @@ module signals
 contains
 
    !> Note SIGINT, SIGTERM, SIGHUP (the terminal is gone), SIGXCPU (a limit of processor time) and SIGUSR1 (the warning of batch
-   !> systems) instead of dying of them. A terminal that nobody reads any more and a limit on the size of files are left to the
+   !> systems) instead of dying of them. A terminal that no one reads any more and a limit on the size of files are left to the
    !> calls that write.
    subroutine catch_signals()
       type(c_funptr) :: previous

@@ -10,7 +10,7 @@ module stack
    private
 
    !> What is asked for [bytes]: four times what the ready inputs were measured to take, and half of what Linux gives at least to a
-   !> thread whose stack nobody limits.
+   !> thread whose stack no one limits.
    integer(int64), parameter :: needed_bytes = 2_int64**20
    integer(c_int), parameter :: limit_of_stack = 3
    !> More than the properties of a thread take on any machine

@@ -133,7 +133,7 @@ contains
       if (is_plain(number)) decimals_of = max(0, decimals_of)
    end function decimals_of
 
-   !> The error of a number that short_text tells with so many digits: never below half a unit of the last of these digits.
+   !> The error of a number that short_text shows with so many digits: never below half a unit of the last of these digits.
    pure function error_text(error, number, digits) result(text)
       !> Bound of the error, not negative
       real(dp), intent(in) :: error

@@ -1,6 +1,6 @@
 !> Lines of text to standard output and to logs, and whether they have reached their readers: a full disk takes a log or a
-!> template as it takes a result. (The runtime tells of no failure where it flushes a unit.) What works that go on side by side
-!> tell reaches the standard output in their order: the first of them speaks, the others are kept waiting.
+!> template as it takes a result. (The runtime reports no failure where it flushes a unit.) What works that go on side by side
+!> print reaches the standard output in their order: the first of them speaks, the others are kept waiting.
 module text_output
    use, intrinsic :: iso_c_binding, only: c_int
    use file_descriptor, only: standard_error, standard_output, write_bytes
@@ -41,7 +41,7 @@ contains
       call unlock_texts()
    end subroutine put_text
 
-   !> Let works go on side by side, each on a thread. The first has its turn to tell. A thread makes texts only between lock_texts
+   !> Let works go on side by side, each on a thread. The first has its turn to report. A thread makes texts only between lock_texts
    !> and unlock_texts, one at a time.
    subroutine share_output(works)
       !> How many, 0: no more
@@ -82,7 +82,7 @@ contains
       call unlock_texts()
    end subroutine end_turn
 
-   !> Whether what this thread tells goes out at once. Asked between lock_texts and unlock_texts: otherwise the turn may pass
+   !> Whether what this thread prints goes out at once. Asked between lock_texts and unlock_texts: otherwise the turn may pass
    !> meanwhile.
    logical function has_turn()
       has_turn = own == turn
@@ -95,7 +95,7 @@ contains
       call put_text(text//new_line('a'))
    end subroutine put_line
 
-   !> A line to standard error. Where nobody reads there, the exit code has to do.
+   !> A line to standard error. Where no one reads there, the exit code has to do.
    subroutine put_error_line(text)
       character(*), intent(in) :: text
       logical :: ignored

@@ -1,4 +1,4 @@
-!> Libraries end the program on their own where the system refuses them something, a thread or memory, say: they tell why, with an
+!> Libraries end the program on their own where the system refuses them something, a thread or memory, say: they say why, with an
 !> exit code that means something else here. Then the program has the last word.
 module unplanned_end
    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int

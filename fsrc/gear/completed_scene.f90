@@ -25,7 +25,7 @@ module completed_scene
 
 contains
 
-   !> Derive the scene of an input, tell what is wrong with it or odd about it, and put what follows into its resolved input as
+   !> Derive the scene of an input, report what is wrong with it or odd about it, and put what follows into its resolved input as
    !> comments.
    subroutine complete_scene(scene, faults)
       !> Without a fault of its own
@@ -118,8 +118,8 @@ contains
       if (thin < least_viscosity_meant) scene%warnings = [scene%warnings, word_t('warning: the oil has '// &
          short_text(thin, 3)//' mm2/s at '//short_text(ends(2), 3)// &
          ' degC; the line through both viscosities (ASTM D341) is meant for 2 and more')]
-      call tell(scene, 'lubricant.viscosity', [scene%lubricant%viscosity], 'Pa s')
-      call tell(scene, 'lubricant.pressure_viscosity', [scene%lubricant%pressure_viscosity], '1/Pa')
+      call report(scene, 'lubricant.viscosity', [scene%lubricant%viscosity], 'Pa s')
+      call report(scene, 'lubricant.pressure_viscosity', [scene%lubricant%pressure_viscosity], '1/Pa')
 
    contains
 
@@ -233,46 +233,46 @@ contains
                    short_text(excitation%force_scale*sum(excitation%force_amplitudes), 4)// &
                    ' N at most: the tooth stays on its flank, or on the film there')]
          if (allocated(scene%shaft%speed_amplitudes) .or. allocated(scene%shaft%table)) &
-            call tell(scene, 'shaft.accelerations', accelerations_of(scene%shaft), 'rad/s2')
-         if (allocated(scene%shaft%table)) call tell(scene, 'shaft.orders', scene%shaft%orders, '')
-         if (allocated(scene%shaft%table)) call tell(scene, 'shaft.phases', scene%shaft%phases, 'rad')
-         call tell(scene, 'gear.base_radius_1', [contact%base_radius_1], 'm')
-         call tell(scene, 'gear.base_radius_2', [contact%base_radius_2], 'm')
-         call tell(scene, 'gear.centre_distance', [contact%centre_distance], 'm')
-         call tell(scene, 'gear.working_pressure_angle', [contact%working_pressure_angle], 'deg')
-         call tell(scene, 'gear.base_helix_angle', [contact%base_helix_angle], 'deg')
-         call tell(scene, 'gear.profile_shift_sum', [scene%teeth%shift_sum], '')
-         call tell(scene, 'gear.contact_ratio', [scene%teeth%contact_ratio], '')
-         call tell(scene, 'gear.overlap_ratio', [scene%teeth%overlap_ratio], '')
-         if (scene%gear%tip_diameter_1 > 0.0_dp) call tell(scene, 'gear.contact_lines', [contact%contact_lines], '')
-         if (scene%drag%known_by /= drag_given) call tell(scene, 'gear.drag_torque', [scene%drag%torque], 'N m')
+            call report(scene, 'shaft.accelerations', accelerations_of(scene%shaft), 'rad/s2')
+         if (allocated(scene%shaft%table)) call report(scene, 'shaft.orders', scene%shaft%orders, '')
+         if (allocated(scene%shaft%table)) call report(scene, 'shaft.phases', scene%shaft%phases, 'rad')
+         call report(scene, 'gear.base_radius_1', [contact%base_radius_1], 'm')
+         call report(scene, 'gear.base_radius_2', [contact%base_radius_2], 'm')
+         call report(scene, 'gear.centre_distance', [contact%centre_distance], 'm')
+         call report(scene, 'gear.working_pressure_angle', [contact%working_pressure_angle], 'deg')
+         call report(scene, 'gear.base_helix_angle', [contact%base_helix_angle], 'deg')
+         call report(scene, 'gear.profile_shift_sum', [scene%teeth%shift_sum], '')
+         call report(scene, 'gear.contact_ratio', [scene%teeth%contact_ratio], '')
+         call report(scene, 'gear.overlap_ratio', [scene%teeth%overlap_ratio], '')
+         if (scene%gear%tip_diameter_1 > 0.0_dp) call report(scene, 'gear.contact_lines', [contact%contact_lines], '')
+         if (scene%drag%known_by /= drag_given) call report(scene, 'gear.drag_torque', [scene%drag%torque], 'N m')
          if (scene%drag%known_by == drag_computed) then
-            call tell(scene, 'gear.drag_bearing', [scene%drag%bearing], 'N m')
-            call tell(scene, 'gear.drag_synchroniser', [scene%drag%synchroniser], 'N m')
-            call tell(scene, 'gear.drag_churning', [scene%drag%churning], 'N m')
+            call report(scene, 'gear.drag_bearing', [scene%drag%bearing], 'N m')
+            call report(scene, 'gear.drag_synchroniser', [scene%drag%synchroniser], 'N m')
+            call report(scene, 'gear.drag_churning', [scene%drag%churning], 'N m')
             if (gap_is_turbulent(scene%gear, scene%shaft%speed_rpm, scene%oil)) scene%warnings = [scene%warnings, &
                word_t('warning: oil whirls in the gap of the synchroniser or of the plain bearing at this speed, where it is '// &
                       'computed as laminar: it brakes more')]
          end if
-         call tell(scene, 'contact.radius', [scene%contact%radius], 'm')
-         call tell(scene, 'contact.length', [scene%contact%length], 'm')
-         if (scene%contact%backlash > 0.0_dp) call tell(scene, 'contact.backlash', [scene%contact%backlash], 'm')
-         if (scene%contact%stiffness > 0.0_dp) call tell(scene, 'contact.stiffness', [scene%contact%stiffness], 'N/m')
+         call report(scene, 'contact.radius', [scene%contact%radius], 'm')
+         call report(scene, 'contact.length', [scene%contact%length], 'm')
+         if (scene%contact%backlash > 0.0_dp) call report(scene, 'contact.backlash', [scene%contact%backlash], 'm')
+         if (scene%contact%stiffness > 0.0_dp) call report(scene, 'contact.stiffness', [scene%contact%stiffness], 'N/m')
          if (scene%contact%damping_ratio > 0.0_dp) &
-            call tell(scene, 'contact.damping_ratio', [scene%contact%damping_ratio], '-')
-         call tell(scene, 'kinematics.entrainment_speed', [scene%kinematics%entrainment_speed], 'm/s')
-         call tell(scene, 'load.mass', [excitation%mass], 'kg')
-         call tell(scene, 'load.steady_force', [excitation%steady_force], 'N')
-         call tell(scene, 'load.force_orders', real(excitation%force_orders, dp), '')
-         call tell(scene, 'load.force_amplitudes', excitation%force_amplitudes, 'N')
-         call tell(scene, 'load.force_phases', excitation%force_phases, 'rad')
-         call tell(scene, 'load.frequency', [excitation%frequency], 'Hz')
-         call tell(scene, 'load.gravity', [excitation%gravity], 'm/s2')
+            call report(scene, 'contact.damping_ratio', [scene%contact%damping_ratio], '-')
+         call report(scene, 'kinematics.entrainment_speed', [scene%kinematics%entrainment_speed], 'm/s')
+         call report(scene, 'load.mass', [excitation%mass], 'kg')
+         call report(scene, 'load.steady_force', [excitation%steady_force], 'N')
+         call report(scene, 'load.force_orders', real(excitation%force_orders, dp), '')
+         call report(scene, 'load.force_amplitudes', excitation%force_amplitudes, 'N')
+         call report(scene, 'load.force_phases', excitation%force_phases, 'rad')
+         call report(scene, 'load.frequency', [excitation%frequency], 'Hz')
+         call report(scene, 'load.gravity', [excitation%gravity], 'm/s2')
       end associate
    end subroutine tell_gear
 
    !> Put a derived key into the resolved input.
-   subroutine tell(scene, name, numbers, unit)
+   subroutine report(scene, name, numbers, unit)
       type(scene_t), intent(inout) :: scene
       character(*), intent(in) :: name
       real(dp), intent(in) :: numbers(:)
@@ -280,6 +280,6 @@ contains
 
       scene%resolved_input = scene%resolved_input//'! derived: '//name//' = '//trim(numbers_text(numbers)//' '//unit)// &
                              new_line('a')
-   end subroutine tell
+   end subroutine report
 
 end module completed_scene

@@ -111,7 +111,7 @@ contains
          end do
       end do
       if (divisor < least*maxval(orders)) return
-      ! The largest order tells the divisor with the most digits.
+      ! The largest order shows the divisor with the most digits.
       base_order = maxval(orders)/anint(maxval(orders)/divisor)
    end function base_order
 

@@ -45,7 +45,7 @@ contains
          shortening = (mesh%distance - sum(mesh%reference))/module_n - teeth%shift_sum
          if (teeth%tips_given) then
             tips = 0.5_dp*[pair%tip_diameter_1, pair%tip_diameter_2]
-            ! Equal addenda tell how the sum is shared.
+            ! Equal addenda show how the sum is shared.
             associate (above => (tips - mesh%reference)/module_n)
                teeth%shifts = 0.5_dp*(teeth%shift_sum + [above(1) - above(2), above(2) - above(1)])
                teeth%addendum = 0.5_dp*(sum(above) - teeth%shift_sum) - shortening

@@ -115,7 +115,7 @@ contains
       type(prepared_scene_t), intent(in) :: scenes(:)
       !> Periods of the windows
       integer, intent(in) :: periods(:)
-      !> What their steps tell
+      !> What their steps show
       type(window_record_t), intent(in) :: records(:)
       !> Classes by the samples there are, which are too few; on return by more of them or by integrals
       type(rattle_verdict_t), intent(inout) :: verdicts(:)
@@ -172,7 +172,7 @@ contains
    !> Classes of windows of as many periods that are solved again with some samples of each.
    function finer_classes(scenes, records, periods, samples_per_period, by_fewer) result(classes)
       type(prepared_scene_t), intent(in) :: scenes(:)
-      !> What their steps tell
+      !> What their steps show
       type(window_record_t), intent(in) :: records(:)
       integer, intent(in) :: periods
       integer, intent(in) :: samples_per_period
@@ -363,7 +363,7 @@ contains
 
    !> Whether twice as many samples of a window may be enough.
    elemental logical function may_be_finer(record, periods, samples_per_period)
-      !> What the steps of the window tell; no periods: it cannot be solved again
+      !> What the steps of the window show; no periods: it cannot be solved again
       type(window_record_t), intent(in) :: record
       !> Its periods, and the samples of each
       integer, intent(in) :: periods

@@ -47,7 +47,7 @@ module other_motions
       !> On return, whether it came to a motion that is known now
       logical :: has_motion = .false.
       !> Whether it came to a motion that repeats, and whether it did not and may still, or came next to one whose acceleration its
-      !> window does not tell; the state is that of its end then
+      !> window does not show; the state is that of its end then
       logical :: settled = .false., is_open = .false., is_next_to_one = .false.
    end type start_trial_t
 

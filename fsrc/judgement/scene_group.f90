@@ -1,4 +1,4 @@
-!> Scenes that are solved side by side, or a single one: the samples of their windows, what the steps tell of them, and their classes.
+!> Scenes solved side by side, or a single one: the samples of their windows, what the steps report of them, and their classes.
 module scene_group
    use engine, only: ending_t, motion_state_t, reserved_periods
    use irregular_statistics, only: irregular_statistics_t
@@ -26,7 +26,7 @@ module scene_group
       real(dp), allocatable :: accelerations(:)
       !> How the motions ended
       type(ending_t), allocatable :: endings(:)
-      !> What the steps of the windows tell; no periods: the samples are all there is
+      !> What the steps of the windows show; no periods: the samples are all there is
       type(window_record_t), allocatable :: records(:)
       !> Classes of the motions that have a window
       type(rattle_verdict_t), allocatable :: verdicts(:)
@@ -106,7 +106,7 @@ contains
       real(dp), allocatable, intent(inout) :: accelerations(:)
       !> How it ended
       type(ending_t), intent(in) :: ending
-      !> What the steps of the window tell
+      !> What the steps of the window show
       type(window_record_t), intent(in) :: record
       type(scene_group_t), intent(out) :: group
 
@@ -120,7 +120,7 @@ contains
       group%repeat_after(1) = ending%orbit
    end subroutine take_window
 
-   !> What the steps tell of a motion: over the periods that it was followed beyond its window, else over its window.
+   !> What the steps report of a motion: over the periods that it was followed beyond its window, else over its window.
    pure type(window_record_t) function judged_record(group, place)
       type(scene_group_t), intent(in) :: group
       !> Of the motion

@@ -1,8 +1,8 @@
 !> How far the classes and impacts of some scenes, or of a single one, stand: all of them solved again, tighter and side by side, and
-!> every window held against the tighter one.
+!> every window compared with the tighter one.
 !>
-!> A scene that is solved for a number of periods is held against the same periods. Where both solutions go on until the motion
-!> repeats, the tighter one within its own accuracy, their forecasts may save different periods: the orbits are held against each
+!> A scene that is solved for a number of periods is compared with the same periods. Where both solutions go on until the motion
+!> repeats, the tighter one within its own accuracy, their forecasts may save different periods: the orbits are compared with each
 !> other, beginning with whichever of their periods fits best.
 !>
 !> Two solutions of an irregular motion part whatever their digits. It is verified by the periods that it was followed beside a

@@ -1,4 +1,4 @@
-!> The motion that a window shows: as it is reported, and by the states that others are held against.
+!> The motion that a window shows: as it is reported, and by the states that others are compared with.
 module window_motion
    use coexisting_motions, only: motion_summary_t
    use judged_scene, only: judged_scene_t
@@ -19,7 +19,7 @@ module window_motion
    implicit none(type, external)
    private
 
-   !> Accuracy that is enough to tell motions apart [-]
+   !> Accuracy that is enough to distinguish motions [-]
    real(dp), parameter, public :: enough_accuracy = 1.0e-6_dp
 
    public :: note_own_motion, motion_of_window, summary_of_window
@@ -68,7 +68,7 @@ contains
       judged%coexisting%unsettled_starts = merge(1, 0, own%period == 0)
    end subroutine note_own_motion
 
-   !> A motion by its window. Where the run ended before the motion repeats within the accuracy, the states of the window tell after
+   !> A motion by its window. Where the run ended before the motion repeats within the accuracy, the states of the window show after
    !> how many periods they come again near enough, or the periodic motion that was found next to its end. One that is irregular comes
    !> near where it was and parts from there again, and one that is irregular so far may creep along and be far from where it settles.
    type(settled_motion_t) function motion_of_window(problem, samples_per_period, place, group) result(motion)

@@ -270,7 +270,7 @@ contains
    !> Reject the steps at whose end the series does not hold.
    pure subroutine check_ends(series, rise, block)
       type(film_series_t), intent(in) :: series
-      !> V' at the ends by the series, where they are held against the equation of motion [-]
+      !> V' at the ends by the series, where they are compared with the equation of motion [-]
       real(dp), intent(in) :: rise(lanes)
       type(lane_block_t), intent(inout) :: block
 

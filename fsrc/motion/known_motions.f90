@@ -45,8 +45,7 @@ module known_motions
    !> Distance that one of a hundred pairs of samples of one distribution exceeds, in units of sqrt(1/n + 1/m).
    real(dp), parameter :: rare_distance = 1.63_dp
 
-   !> Periods after which a start that does not repeat is held against an irregular motion that is known, and by how many of the last
-   !> ones.
+   !> Periods after which a start that does not repeat is compared with a known irregular motion, and by how many of the last ones.
    integer, parameter, public :: compared_after = 32, compared_periods = 24
 
    public :: reached_motion, joined_irregular, are_near, are_of_one_motion, distance_of, same_motion, known_of, near_states

@@ -29,7 +29,7 @@ module lane_block
    type, public :: lane_block_t
       !> Load coefficient and damping of the film law, and static load, all scaled
       real(dp) :: strength(lanes), damping(lanes), static_load(lanes)
-      !> Force that errors of the load are held against, q + f
+      !> Force that errors of the load are compared with, q + f
       real(dp) :: force(lanes)
       !> What counts as 1: film [m], velocity [m/s], force [N]
       real(dp) :: film_scale(lanes), velocity_scale(lanes), force_scale(lanes)

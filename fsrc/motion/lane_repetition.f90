@@ -22,7 +22,7 @@ module lane_repetition
    implicit none(type, external)
    private
 
-   !> Every so many periods a motion is held against an irregular one that is known.
+   !> Every so many periods a motion is compared with an irregular one that is known.
    integer, parameter :: compared_every = 4
    !> Share of the accuracy within which a motion counts as repeating.
    real(dp), parameter :: repetition_share = 0.3_dp

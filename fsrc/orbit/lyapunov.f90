@@ -21,7 +21,7 @@ module lyapunov
    private
 
    !> Periods that a motion and its neighbour are followed, in stretches, at least and at most. After each stretch it is seen whether
-   !> they part at all; after the least of them, whether more would tell more.
+   !> they part at all; after the least of them, whether more would show more.
    integer, parameter, public :: stretch_periods = 25
    integer, parameter :: stretches = 4, most_stretches = 12
    !> Periods of a block, whose means give the statistical error of the exponent.
@@ -54,7 +54,7 @@ module lyapunov
 
    !> Where a motion was, over the periods that it was followed.
    type, public :: path_t
-      !> What its steps tell of them; with what is requested of that, and no periods where the motion does not part for good
+      !> What its steps report of them; with what is requested of that, and no periods where the motion does not part for good
       type(window_record_t) :: record
       !> Films and velocities at the ends of the periods: number, period
       real(dp), allocatable :: states(:, :)
@@ -62,7 +62,7 @@ module lyapunov
       real(dp), allocatable :: sums(:, :)
    end type path_t
 
-   !> Whether a path tells enough of its motion, or should be followed on.
+   !> Whether a path shows enough of its motion, or should be followed on.
    abstract interface
       pure logical function path_is_enough(path)
          import :: path_t

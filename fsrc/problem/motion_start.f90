@@ -1,5 +1,5 @@
 !> Where motions start by which all motions of one operating point are looked for: from rest, from the coast flank, out of the
-!> middle of the gap, and from films and velocities drawn at random. THEORY.md says why these, and what they can tell.
+!> middle of the gap, and from films and velocities drawn at random. THEORY.md says why these, and what they can show.
 module motion_start
    use constants, only: two_pi
    use kinds, only: dp, int64

@@ -176,7 +176,7 @@ contains
       places = of_velocity + contact_count(problem) + [1, contact_count(problem)]
    end function deflection_places
 
-   !> How many numbers of a state tell how gear and teeth stand and move: film, velocity, and what contacts are compressed by. They
+   !> How many numbers of a state show how gear and teeth stand and move: film, velocity, and what contacts are compressed by. They
    !> are its first ones; states of films stand behind them.
    elemental integer function moving_numbers(problem)
       type(problem_t), intent(in) :: problem
@@ -268,7 +268,7 @@ contains
       if (films(1) < 0.0_dp) films = films_at_rest(problem, static_load(problem))
    end function steady_films
 
-   !> Films at rest, near enough to tell how films settle: of rigid teeth about a film near that of the drive flank at rest [m].
+   !> Films at rest, near enough to show how films settle: of rigid teeth about a film near that of the drive flank at rest [m].
    pure function films_near_rest(problem, film) result(films)
       type(problem_t), intent(in) :: problem
       !> Near that of the drive flank at rest [m]

@@ -198,7 +198,7 @@ contains
       if (verify(group(first:last), '0123456789') == 0) read (group(first:last), *) pair_of
    end function pair_of
 
-   !> A setting as it is reported in faults: nobody reads thousands of numbers.
+   !> A setting as it is reported in faults: no one reads thousands of numbers.
    pure function shortened(setting) result(short)
       character(*), intent(in) :: setting
       character(:), allocatable :: short

@@ -131,7 +131,7 @@ contains
       call derive(swept)
    end function swept_scene
 
-   !> Tell where an earlier run of this sweep was cut, if it was.
+   !> Report where an earlier run of this sweep was cut, if it was.
    subroutine report_cut(log, scene)
       type(log_t), intent(in) :: log
       type(scene_t), intent(in) :: scene
@@ -146,7 +146,7 @@ contains
       call earlier%close()
    end subroutine report_cut
 
-   !> Names and units of the columns: the swept key, the way, then the quantities that sweeps tell.
+   !> Names and units of the columns: the swept key, the way, then the quantities that sweeps report.
    pure subroutine sweep_columns(scene, names, units)
       type(scene_t), intent(in) :: scene
       character(column_name_bytes), allocatable, intent(out) :: names(:)
@@ -157,7 +157,7 @@ contains
       units = [character(column_unit_bytes) :: keys(scene%sweep%key)%unit, '-', quantity_table(swept_quantities(scene))%unit]
    end subroutine sweep_columns
 
-   !> Codes of the quantities that this sweep tells; what is swept has its column already.
+   !> Codes of the quantities that this sweep reports; what is swept has its column already.
    pure function swept_quantities(scene) result(codes)
       type(scene_t), intent(in) :: scene
       integer, allocatable :: codes(:)

@@ -203,7 +203,7 @@ contains
    !> is coarser than the motion.
    subroutine add_extremes(self, record, first_period, coarse)
       class(sample_recorder_t), intent(inout) :: self
-      !> What the steps of the window tell; nothing where each sample is a step of its own
+      !> What the steps of the window show; nothing where each sample is a step of its own
       type(window_record_t), intent(in) :: record
       !> Periods before the window
       integer, intent(in) :: first_period

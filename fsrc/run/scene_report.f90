@@ -1,4 +1,4 @@
-!> What the terminal and the log tell of a scene.
+!> What the terminal and the log report of a scene.
 module scene_report
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use coexisting_motions, only: motions_sentence, own_start_words
@@ -79,7 +79,7 @@ contains
       end if
    end subroutine report_start
 
-   !> A line with the quantities of a part that the log tells, by their names; without any there is no line.
+   !> A line with the quantities of a part that the log reports, by their names; without any there is no line.
    subroutine report_part(log, judged, part)
       type(log_t), intent(in) :: log
       type(judged_scene_t), intent(in) :: judged

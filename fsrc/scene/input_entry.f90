@@ -44,7 +44,7 @@ module input_entry
 
 contains
 
-   !> Entry that nobody has set: the default of its key, or no value.
+   !> Entry that no one has set: the default of its key, or no value.
    function new_entry(key, file) result(entry)
       type(key_t), intent(in) :: key
       !> Name of the input for the faults

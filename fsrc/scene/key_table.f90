@@ -17,7 +17,7 @@ module key_table
    type(range_t), parameter :: at_least_1 = range_t(1.0_dp, .false., 1.0e9_dp, .false.)
    type(range_t), parameter :: at_least_8 = range_t(8.0_dp, .false., 1.0e7_dp, .false.)
    ! Numbers of machines, with a margin of a thousand or more on both sides. Within these the powers and products of them that
-   ! the film and its motion need stay in the range of the reals; beyond, a scene would tell of overflow at best.
+   ! the film and its motion need stay in the range of the reals; beyond, a scene would report overflow at best.
    real(dp), parameter :: a_length(2) = [1.0e-10_dp, 1.0e7_dp]
    real(dp), parameter :: a_modulus(2) = [1.0_dp, 1.0e30_dp]
    real(dp), parameter :: a_viscosity(2) = [1.0e-10_dp, 1.0e7_dp]
@@ -165,7 +165,7 @@ module key_table
             'Film velocity dh/dt at t = 0, negative on approach.', sensible=[-100.0_dp, 100.0_dp], computable=a_signed_speed) &
       ]
 
-   ! What a drawing and a data sheet tell: from it keys of the groups above follow.
+   ! What a drawing and a data sheet show: from it keys of the groups above follow.
    type(key_t), parameter :: keys_of_drawings(*) = [ &
       key_t('gear', 'name', text_kind, '', '', any_number, '', of_motions, &
             'Name of the pair, required where several &gear stand: each is solved as a scene NAME.GEAR of its own.'), &

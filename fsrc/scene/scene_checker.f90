@@ -57,7 +57,7 @@ contains
       end if
    end subroutine check_together
 
-   !> No number leads out of the range of the reals; one that does is faulty, and no rule is held against it.
+   !> No number leads out of the range of the reals; one that does is faulty, and no rule is applied to it.
    subroutine check_computable(input)
       type(scene_input_t), intent(inout) :: input
       integer :: i, j

@@ -47,7 +47,7 @@ module scene_input
       procedure :: path_beside
       procedure, private :: folder
       procedure :: refuse
-      procedure :: tell
+      procedure :: report
    end type scene_input_t
 
    public :: new_scene_input
@@ -148,7 +148,7 @@ contains
       scene%contact%flattening_included = self%flag('contact.flattening_included')
    end subroutine put_laws
 
-   !> Defaults that hang on other keys: gear pairs have their own, the elastohydrodynamic law its model, and no other law another
+   !> Defaults that depend on other keys: gear pairs have their own, the elastohydrodynamic law its model, and no other law another
    !> law of viscosity than Barus'.
    subroutine choose_defaults(self)
       class(scene_input_t), intent(inout) :: self
@@ -210,7 +210,7 @@ contains
       has_group = any(keys%group == group .and. self%entries%given) .or. (group == repeated_group .and. self%line_of_pair > 0)
    end function has_group
 
-   !> Whether a key was set to something that could not be read, so that no rule can be held against it.
+   !> Whether a key was set to something that could not be read, so that no rule can be applied to it.
    pure logical function is_faulty(self, key)
       class(scene_input_t), intent(in) :: self
       !> As group.name
@@ -359,13 +359,13 @@ contains
       end associate
    end subroutine refuse
 
-   !> Tell what was found in a file.
-   pure subroutine tell(self, finding)
+   !> Report what was found in a file.
+   pure subroutine report(self, finding)
       class(scene_input_t), intent(inout) :: self
       !> As 'group.name = number'
       character(*), intent(in) :: finding
 
       self%found = self%found//'! derived: '//finding//new_line('a')
-   end subroutine tell
+   end subroutine report
 
 end module scene_input

@@ -82,7 +82,7 @@ contains
       if (stat /= 0) return
 
       call scan_namelists(content, file, 1, assignments, faults)
-      ! What holds no group at all is no input; a list of all that it lacks would help nobody.
+      ! What holds no group at all is no input; a list of all that it lacks would help no one.
       is_input = size(assignments) > 0 .or. faults%count() == before
       call begin_inputs(assignments, file, inputs)
       do i = 1, size(overrides)

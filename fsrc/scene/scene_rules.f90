@@ -64,7 +64,7 @@ contains
          end if
       end associate
       broken = pack(rules,.not. holds)
-      ! Those of a drawing and a data sheet are held against what follows from them.
+      ! Those of a drawing and a data sheet are compared with what follows from them.
       if (.not. (scene%gear%given .or. scene%oil%given)) broken = [broken, broken_elastic_rules(scene)]
    end function broken_rules
 

@@ -271,7 +271,7 @@ module scene_types
    type, public :: film_choice_t
       integer :: law = law_iso_viscous
       integer :: model = model_published
-      !> Whether the closure, which the model is then, or nodes of pressure are chosen by what the closure tells; once it is chosen,
+      !> Whether the closure, which the model is then, or nodes of pressure are chosen by what the closure shows; once it is chosen,
       !> why, and whether it is the closure because nodes stopped
       logical :: automatic = .false., nodes_stopped = .false.
       character(400) :: model_words = ''

@@ -35,7 +35,7 @@ module signal_reader
       character(:), allocatable :: group
       character(:), allocatable :: path
       type(recording_t) :: recording
-      !> Cycles of the recording, and what tells them
+      !> Cycles of the recording, and how they are known
       integer :: cycles = 0
       character(:), allocatable :: counted_by
       !> Root mean square by which the cycles differ from their mean, over that of what oscillates of it
@@ -101,8 +101,8 @@ contains
       last = kept_orders(input, signal)
       notes = [notes, note_of(signal, last), signal%doubts, doubt_of_limit(signal, last)]
       if (group == 'shaft') call tell_measured_speed(input, signal)
-      if (signal%cycles > 1) call input%tell(group//'.signal_cycles = '//integer_text(signal%cycles))
-      if (signal%cycles > 1) call input%tell(group//'.signal_scatter = '//short_text(signal%scatter, 5))
+      if (signal%cycles > 1) call input%report(group//'.signal_cycles = '//integer_text(signal%cycles))
+      if (signal%cycles > 1) call input%report(group//'.signal_scatter = '//short_text(signal%scatter, 5))
       call put(input, group, shape_keys(1), signal%orders(:last))
       call put(input, group, signal%amplitude_key, signal%amplitudes(:last))
       call put(input, group, shape_keys(3), signal%phases(:last))
@@ -130,7 +130,7 @@ contains
       type(signal_t), intent(inout) :: signal
       integer :: i, before
 
-      ! Until the signal is read no rule is held against what it gives.
+      ! Until the signal is read no rule is applied to what it gives.
       if (group == 'shaft') input%entries([(find_key(group//'.'//shape_keys(i)), i=1, 2)])%given = .true.
       if (group == 'shaft') input%entries([(find_key(group//'.'//shape_keys(i)), i=1, 2)])%faulty = .true.
       if (any([(input%is_faulty(group//'.'//keys(i)), i=1, size(keys))])) return

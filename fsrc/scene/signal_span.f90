@@ -1,4 +1,4 @@
-!> How many cycles of a group a recording holds. Its axis is evidence: what it spans is held against the cycle that the keys of the
+!> How many cycles of a group a recording holds. Its axis is evidence: what it spans is compared with the cycle that the keys of the
 !> group give, and what is off by more than half a sample is refused, with both numbers and the key that would mend it.
 module signal_span
    use column_head, only: angle_axis, axis_of, axis_unit_t, no_axis, time_axis
@@ -27,7 +27,7 @@ contains
       type(recording_t), intent(in) :: recording
       !> 0 if they are not known: then the file has a fault, or the input has one that is reported elsewhere
       integer, intent(out) :: cycles
-      !> What tells them, in a few words
+      !> How they are known, in a few words
       character(:), allocatable, intent(out) :: basis
       type(axis_unit_t) :: unit
       character(:), allocatable :: message
@@ -155,7 +155,7 @@ contains
       !> Samples a cycle by the keys
       real(dp), intent(in) :: per_cycle
       integer, intent(in) :: asked
-      !> Half a sample, and what rounding makes of it
+      !> Half a sample, and its rounding error
       real(dp), parameter :: most_off = 0.5_dp + 1.0e-6_dp
 
       cycles = asked
@@ -254,7 +254,7 @@ contains
          end associate
       end function repeats_its_start
 
-      !> What tells the script the speed of a recording over time; it finds that of a speed itself.
+      !> What shows the script the speed of a recording over time; it finds that of a speed itself.
       function option_of_speed() result(option)
          character(:), allocatable :: option
 

@@ -327,7 +327,7 @@ contains
       end do
    end function different
 
-   !> Tell the rows of a table, as comments of the resolved input.
+   !> Report the rows of a table, as comments of the resolved input.
    subroutine tell_rows(input, key, csv)
       type(scene_input_t), intent(inout) :: input
       !> As group.name
@@ -340,9 +340,9 @@ contains
       do i = 1, size(csv%names)
          names = names//', '//csv%names(i)%text
       end do
-      call input%tell(key//' columns = '//names(3:))
+      call input%report(key//' columns = '//names(3:))
       do i = 1, size(csv%lines)
-         call input%tell(key//' row = '//numbers_text(csv%values(i, :)))
+         call input%report(key//' row = '//numbers_text(csv%values(i, :)))
       end do
    end subroutine tell_rows
 

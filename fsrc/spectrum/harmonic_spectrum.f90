@@ -17,8 +17,8 @@ module harmonic_spectrum
    type, public :: harmonic_spectrum_t
       !> a_n: single-sided amplitude at n times the forcing frequency, every n below half the samples a period
       real(dp), allocatable :: harmonics(:)
-      !> Order of the largest forced harmonic, which others are held against, and root of the sum of squares of all forced harmonics
-      !> [m/s2]
+      !> Order of the largest forced harmonic, with which others are compared, and root of the sum of squares of all forced
+      !> harmonics [m/s2]
       integer :: largest_forced = 1
       real(dp) :: forced_amplitude = 0.0_dp
       !> How many multiples of the dominant order of the force have harmonics about them that exceed the harmonic threshold times
@@ -170,7 +170,7 @@ contains
       spectrum%forced_amplitude = spectrum%forced_amplitude*unit
    end subroutine harmonics_of_bins
 
-   !> Which harmonic the others are held against: the largest at an order of the force.
+   !> Which harmonic the others are compared with: the largest at an order of the force.
    pure subroutine hold_against_force(harmonics, forced, largest, amplitude, unforced)
       real(dp), intent(in) :: harmonics(:)
       !> Orders of the force; of those beyond the harmonics nothing is known

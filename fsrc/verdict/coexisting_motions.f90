@@ -7,7 +7,7 @@ module coexisting_motions
    implicit none(type, external)
    private
 
-   !> Of a motion whose impacts nobody asked for.
+   !> Of a motion whose impacts no one asked for.
    integer, parameter, public :: unknown_verdict = -1
 
    !> One of them.

@@ -1,5 +1,5 @@
 !> What the films of several gear pairs do to the bearings of their shaft together. All pairs follow the same engine, so their
-!> forces have a phase to each other: beside the root of the sum of their squares, true of forces that know nothing of each other,
+!> forces have a phase to each other: beside the root of the sum of their squares, true of independent forces,
 !> there is the rms of their sum,
 !>
 !>     rms**2 = sum_i rms_i**2 + 2 sum_(i<j) mean of f_i f_j,
@@ -48,7 +48,7 @@ contains
       integer, intent(in) :: last_period
       !> Whether the motion goes on as its window does
       logical, intent(in) :: repeats
-      !> Root of the mean square that the steps of the window tell [N]
+      !> Root of the mean square that the steps of the window show [N]
       real(dp), intent(in) :: rms
       type(force_signal_t) :: signal
       real(dp), allocatable :: force(:), amplitudes(:), phases(:)

@@ -16,7 +16,7 @@ module irregular_statistics
    !> period and their mean impulse; harmonics by their mean power, in units of velocity.
    integer, parameter :: of_rms = 1, of_force = 2, of_kurtosis = 3, of_energy = 4, of_impacts = 5, &
                          of_impulses = of_impacts + most_contacts, of_harmonics = of_impulses + most_contacts
-   !> Batches at least, so that they tell an error, and correlation of a batch with the next one from which on they are longer [-].
+   !> Batches at least, so that they show an error, and correlation of a batch with the next one from which on they are longer [-].
    integer, parameter :: least_batches = 10
    real(dp), parameter :: correlated = 0.1_dp
    !> Standard errors by which both halves may differ, in units of their own.

@@ -71,7 +71,7 @@ contains
    end subroutine note_parting
 
    !> What is known of a motion off its harmonics counts for another solution of it as well: looked at once, it counts for both.
-   !> Where it repeats after several periods, the films of both tell whether they are one motion.
+   !> Where it repeats after several periods, the films of both show whether they are one motion.
    elemental subroutine note_known(verdict, known)
       !> Verdict on the harmonics of the other solution
       type(rattle_verdict_t), intent(inout) :: verdict

@@ -1,4 +1,4 @@
-!> How far a verdict can be trusted: the window of a scene held against the same window solved tighter.
+!> How far a verdict can be trusted: the window of a scene compared with the same window solved tighter.
 module verification
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use doubt, only: doubt_class, doubt_count, doubt_count_bound, doubt_distortion, doubt_distortion_bound, doubt_energy, &
@@ -21,7 +21,7 @@ module verification
    private
 
    !> What the comparison says. The errors are those of the numbers beside them, never printed smaller than the tighter
-   !> solution can tell. A relative error is a share of the smaller one of both numbers: a film that is reported a hundred times too
+   !> solution can show. A relative error is a share of the smaller one of both numbers: a film that is reported a hundred times too
    !> thin is 9900 % off, not 99 %.
    type, public :: verification_t
       !> Whether there was a tighter solution to compare with
@@ -263,7 +263,7 @@ contains
       end associate
    end function irregular_verification
 
-   !> First reason to doubt a motion by its window and that of its tighter solution, before both are held against each other.
+   !> First reason to doubt a motion by its window and that of its tighter solution, before both are compared with each other.
    pure type(doubt_t) function doubt_of_windows(problem, record, tight_record, noise_floor, tight_noise, verdict, &
                                                 too_few_samples, periods, tight_end, tolerance) result(doubt)
       type(problem_t), intent(in) :: problem
@@ -359,7 +359,7 @@ contains
    end function doubt_of_fraction
 
    !> Whether a window of one period is not that of a motion that repeats after it. Of longer windows there is no doubt: there
-   !> the power off the harmonics tells.
+   !> the power off the harmonics shows.
    pure type(doubt_t) function doubt_of_return(verdict, periods, films, tolerance) result(doubt)
       type(rattle_verdict_t), intent(in) :: verdict
       !> Of the window

@@ -29,7 +29,7 @@ module vibration_severity
 
 contains
 
-   !> Vibration severity that the steps of the engine tell.
+   !> Vibration severity that the steps of the engine show.
    pure type(vibration_severity_t) function severity_of_record(record, frequency) result(severity)
       !> A record of one or more periods
       type(window_record_t), intent(in) :: record

@@ -27,7 +27,7 @@ contains
       integer, intent(in) :: periods
       !> z'' of its samples, the same count in each period [m/s2]
       real(dp), intent(in) :: accelerations(:)
-      !> What the steps tell; no periods: the samples are all that is known
+      !> What the steps show; no periods: the samples are all that is known
       type(window_record_t), intent(in) :: record
       !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor

@@ -24,7 +24,7 @@ module window_extremes
 
 contains
 
-   !> Extremes that the steps of the engine tell.
+   !> Extremes that the steps of the engine show.
    pure function extremes_of_record(record) result(extremes)
       !> Record of the window
       type(window_record_t), intent(in) :: record

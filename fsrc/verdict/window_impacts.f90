@@ -36,7 +36,7 @@ module window_impacts
 
 contains
 
-   !> Impacts that the steps of the engine tell.
+   !> Impacts that the steps of the engine show.
    elemental type(window_impacts_t) function impacts_of_record(record, frequency) result(impacts)
       !> Record of the window that was asked for impacts
       type(window_record_t), intent(in) :: record

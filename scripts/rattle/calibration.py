@@ -1,4 +1,4 @@
-"""Fits what drawing and oil cannot tell, the drag above all, to points measured over speed and temperature.
+"""Fits what drawing and oil cannot give, the drag above all, to points measured over speed and temperature.
 
 Every motion is solved by the program: a fit asks it for campaigns whose scenes are the measured points.
 """

@@ -18,7 +18,7 @@ LINEAR, LOGARITHMIC, LISTED = "linear", "logarithmic", "values"
 
 @dataclass(frozen=True)
 class PlannedAxis:
-    """One varied key of a grid: its scale, and its values where the input tells them."""
+    """One varied key of a grid: its scale, and its values where the input has them."""
 
     key: str
     scale: str

@@ -48,7 +48,7 @@ class Campaign(ResultFile):
     varied : the varied keys, as group.key; 'gear' first where several pairs were solved
     gears : names of these pairs, by the numbers 1, 2, ... in the column 'gear'
     part, parts : which part of how many this is; 1 and 1 for a whole campaign
-    scene_count : scenes of the whole campaign, None where only its end tells
+    scene_count : scenes of the whole campaign, None where only its end shows
     and those of every `ResultFile`
     """
 

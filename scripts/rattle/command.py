@@ -98,19 +98,19 @@ def complain(sentence: str) -> int:
 
 
 def note(sentence: str) -> None:
-    """Tell the user something that does not stop the work."""
+    """Warn the user something that does not stop the work."""
     print(f"{Path(sys.argv[0]).name}: {sentence}", file=sys.stderr)
 
 
 def note_open(result: Result) -> None:
-    """Tell the user that a result is not closed, or that the summary beside it is of another run."""
+    """Warn the user that a result is not closed, or that the summary beside it is of another run."""
     if not result.closed:
         note(f"{result.path} is not closed; its {result.row_count} complete rows are used.")
     note_summary(result)
 
 
 def note_summary(result: ResultFile) -> None:
-    """Tell the user that the summary beside a result is of another run, if it is."""
+    """Warn the user that the summary beside a result is of another run, if it is."""
     try:
         if result.summary_path.exists():
             read_summary(result.summary_path)

@@ -57,7 +57,7 @@ def write(
 ) -> list[Path]:
     """Write all files or, where a fault comes first, none; returns their paths.
 
-    Each is written beside its place, under a name that nobody can foresee, and moved when all are whole.
+    Each is written beside its place, under a name that no one can foresee, and moved when all are whole.
     """
     paths = [path for path, _ in files]
     check(paths, overwrite=overwrite, inputs=inputs)

@@ -59,7 +59,7 @@ class ColumnMapping(Mapping[str, np.ndarray], dict[str, np.ndarray]):
 
 
 class ResultFile(ColumnMapping):
-    """A result file of any kind: its place, its columns by name, and what its header tells.
+    """A result file of any kind: its place, its columns by name, and what its header shows.
 
     Attributes
     ----------
@@ -144,7 +144,7 @@ class ResultFile(ColumnMapping):
 
 
 class CheckedRows:
-    """The rows of a file, mapped; each chunk of them is held against its checksum when it is first asked for.
+    """The rows of a file, mapped; each chunk of them is compared with its checksum when first used.
 
     `mapped` holds all rows, those of series that are extremes at its end. Rows of a file in progress that no
     checksum covers yet, and chunks of a campaign that are not done, are given as they are.

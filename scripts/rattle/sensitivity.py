@@ -46,7 +46,7 @@ class Indices:
 
 @dataclass(frozen=True)
 class Study:
-    """What a design tells of one pair; `probability` of impacts with its interval, if known."""
+    """What a design reports of one pair; `probability` of impacts with its interval, if known."""
 
     pair: str
     keys: tuple[str, ...]
@@ -150,7 +150,7 @@ def _ranges(campaign: f90nml.Namelist, path: Path) -> tuple[list[str], list[floa
 
 
 def studies(campaign: Campaign, quantities: Sequence[str]) -> list[Study]:
-    """What a campaign over a design tells, pair by pair."""
+    """What a campaign over a design shows, pair by pair."""
     known = [name for name in RECORDED[1:] if name in campaign] if not quantities else list(quantities)
     for name in known:
         kind = QUANTITIES[name].kind if name in QUANTITIES and name in campaign else ""

@@ -130,7 +130,7 @@ def run(
     InputError
         Bad input, nothing was run; `faults` names file, line, group and key of each.
     SceneFailed
-        A motion that did not reach its end. Sweeps and campaigns tell it in their columns of status, a
+        A motion that did not reach its end. Sweeps and campaigns have it in their columns of status, a
         `Gearbox` in its summaries.
     RunError
         Everything else, such as a full disk.

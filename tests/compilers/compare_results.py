@@ -16,7 +16,7 @@ sys.path.insert(0, str(REPOSITORY / "scripts"))
 
 import rattle  # noqa: E402
 
-# What tells of the work and not of the motion.
+# What is of the work and not of the motion.
 WORK = ("wall_seconds", "program_version", "evaluations", "steps", "steps_cut", "iterations_per_step")
 CHECKSUM = "_checksum"  # of files that differ in their last digits
 ROUNDING = 1e-6  # the share of the largest by which values without a stated error may differ

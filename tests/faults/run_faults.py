@@ -251,7 +251,7 @@ class Study:
             print(words, file=sys.stderr, flush=True)
 
     def complete(self, task: Task) -> list[str]:
-        """Whether everything is there, to the last bit; of the summary what does not hang on the moment."""
+        """Whether everything is there, to the last bit; of the summary what does not depend on the moment."""
         faults = []
         for name, content in task.expected.items():
             path = self.results / name
@@ -442,7 +442,7 @@ class Study:
 
     def read_after_flip(self, task: Task, name: str) -> list[str]:
         path = self.results / name
-        # Alone in its folder: a summary is held against the result beside it.
+        # Alone in its folder: a summary is compared with the result beside it.
         beside = self.folder / "sound" / name
         shutil.rmtree(beside.parent, ignore_errors=True)
         beside.parent.mkdir()

@@ -1,4 +1,4 @@
-"""Do two builds write the same results? Hashes of what many runs write, held against those of another build.
+"""Do two builds write the same results? Hashes of what many runs write, compared with those of another build.
 
     python tests/reference/result_hashes.py build/rattle --write build/hashes.json
     python tests/reference/result_hashes.py build/rattle --against build/hashes.json [--quick]

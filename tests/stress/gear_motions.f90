@@ -1,4 +1,4 @@
-!> Random gear scenes, and the motions that the program tells of them: of a scene alone, and in the middle of the grid of a
+!> Random gear scenes, and the motions that the program reports of them: of a scene alone, and in the middle of the grid of a
 !> campaign. A scene depends on its number and the seed alone.
 module gear_motions
    use campaign_axis, only: campaign_axis_t
@@ -48,7 +48,7 @@ module gear_motions
       type(resolved_scene_t) :: resolved
    end type gear_scene_t
 
-   !> What the row of a campaign tells.
+   !> What the row of a campaign shows.
    type, public :: reported_row_t
       logical :: judged = .false.
       integer :: motions = 0, starts = 0, unsettled = 0
@@ -131,7 +131,7 @@ contains
       type(coexisting_motions_t), intent(out) :: reported
       !> Periods solved from the own start, and from the others
       integer, intent(out) :: periods(2)
-      !> Whether there was anything to tell
+      !> Whether there was anything to report
       logical, intent(out) :: judged
       type(scene_t) :: scene
       type(judged_scene_t) :: result(1)
@@ -154,7 +154,7 @@ contains
       periods = [result(1)%ending%periods, reported%extra_periods]
    end subroutine motions_reported
 
-   !> What the row in the middle of a small grid over speed and temperature tells.
+   !> What the row in the middle of a small grid over speed and temperature shows.
    subroutine row_reported(drawn, reported)
       type(gear_scene_t), intent(in) :: drawn
       type(reported_row_t), intent(out) :: reported

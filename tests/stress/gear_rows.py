@@ -1,4 +1,4 @@
-"""Random gear inputs whose campaign rows are held against single scenes of the same settings.
+"""Random gear inputs whose campaign rows are compared with single scenes of the same settings.
 
     python tests/stress/gear_rows.py build/rattle [--inputs 500] [--first 1]
 

@@ -1,9 +1,9 @@
-"""Motions that the program tells of random gear scenes, held against scipy.
+"""Motions that the program reports of random gear scenes, compared with scipy.
 
     python tests/stress/motions_by_scipy.py PROGRAM [--scenes N] [--starts N] [--seed S]
 
 Scenes as of stress_motions: a pair of input/gearbox_map.nml at a speed, a temperature, a tooth stiffness
-and a strength of the orders that are drawn, its damping ratio below 0.3. The program tells its motions from
+and a strength of the orders that are drawn, its damping ratio below 0.3. The program finds its motions from
 29 starts. The equations are those of tests/reference/elastohydrodynamic_closure.py, written from the theory
 alone, and scipy's Radau method solves them: from the state of each reported motion for one period of it, and
 from random starts (middle half of the gap, velocities within 2 v*), period by period until each has stayed on

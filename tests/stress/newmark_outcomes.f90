@@ -1,5 +1,5 @@
 !> Newmark's method on given scenes with every iteration and predictor, over steps a period and eps: what
-!> comes out, held against the error-controlled engine.
+!> comes out, compared with the error-controlled engine.
 !>
 !>    newmark_outcomes INPUT ... > FILE.csv
 !>

@@ -4,7 +4,7 @@
                                                                   [--seconds 2400]
     python tests/stress/nodal_robustness.py --table rows.csv
 
-Gears are those of closure_errors.py; heavy ones are shaken with 40 to 400 m/s2, and kept if the closure tells
+Gears are those of closure_errors.py; heavy ones are shaken with 40 to 400 m/s2, and kept if the closure shows
 a largest load M = W/(E* R eps^2 l) from 2 to 12. Four periods from rest are solved in 32 nodes, the last two
 judged and verified in 64; one in five once more in 128 nodes at an accuracy of 1e-3, for which neighbours
 of a motion off its harmonics are not followed: that takes minutes. A verified verdict, or class, that differs
@@ -60,7 +60,7 @@ def load_of(reported: dict, unit: float) -> float:
 
 
 def row_of(kind: str, number: int, program: Path) -> dict | None:
-    """What a scene tells; nothing of a heavy one that is not heavy."""
+    """What a scene reports; nothing of a heavy one that is not heavy."""
     scene, unit = (heavy_scene_of if kind == "heavy" else scene_of)(number)
     closure = solved(scene, {**FOLLOWED, "film.model": "closure", "solver.starts": 1}, program)
     row: dict = dict.fromkeys(FIELDS, "")
@@ -97,7 +97,7 @@ def row_of(kind: str, number: int, program: Path) -> dict | None:
 
 
 def is_wrong(row: dict) -> bool:
-    """Whether what is verified is not what 128 nodes tell."""
+    """Whether what is verified is not what 128 nodes show."""
     if row["reference"] != "complete":
         return False
     wrong_verdict = row["verdict_verified"] == "1" and row["verdict"] != row["reference_verdict"]
@@ -177,7 +177,7 @@ def tell(path: Path) -> None:
 
 
 def main() -> None:
-    """Solve the scenes, or tell of those that were solved."""
+    """Solve the scenes, or report of those that were solved."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("program", type=Path, nargs="?")
     parser.add_argument("rows", type=Path)

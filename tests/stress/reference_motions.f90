@@ -1,5 +1,5 @@
-!> The motions that random starts of a gear scene lead to, by the steps of impact_steps: what the program tells of several motions
-!> is held against them. Nothing of the search of the program is used. A start is followed period by period until it has stayed on
+!> The motions that random starts of a gear scene lead to, by the steps of impact_steps: what the program reports of several motions
+!> is compared with them. Nothing of the search of the program is used. A start is followed period by period until it has stayed on
 !> a motion that an earlier start has come to, or repeats by itself.
 module reference_motions
    use impact_steps, only: start_of_tooth, take_step, tooth_state_t, tooth_step_t, tooth_t

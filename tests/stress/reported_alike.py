@@ -4,7 +4,7 @@
 
 The scenes of a group share film law, flanks and elasticity, and differ in eight numbers. Each is solved
 alone, all of them in one campaign with the same settings, and each as the first value of a sweep, which
-starts as a single scene does. Every quantity that two of the three tell is compared. The exit code is 1
+starts as a single scene does. Every quantity that two of the three report is compared. The exit code is 1
 where one differs in a bit, but for rows of motions that settle slowly: a campaign jumps to where they are
 forecast to settle, solves other periods, and comes to the same motion within the accuracy.
 """
@@ -94,7 +94,7 @@ def input_text(shared: str, scene: dict[str, float], more: str) -> str:
 
 @dataclass(frozen=True)
 class Difference:
-    """A quantity that two tell differently."""
+    """A quantity that two report differently."""
 
     quantity: str
     which: str
@@ -149,7 +149,7 @@ def differences(program: Path, number: int, folder: Path) -> Iterator[Difference
 
 
 def numbers_of(summary: dict) -> dict[str, float]:
-    """What a summary tells, as numbers."""
+    """What a summary reports, as numbers."""
     reported = {}
     if "verification" in summary:
         reported["verified"] = float(str(summary["verification"]).strip() == "verified")

@@ -1,5 +1,5 @@
 !> What the program reports of the random gear scenes of stress_motions, alone and in the middle of a grid, for another build to be
-!> held against (compare_motions.py).
+!> compared with (compare_motions.py).
 !>
 !>    reported_motions FILE.csv [SCENES [FIRST]]
 program reported_motions

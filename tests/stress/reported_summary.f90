@@ -1,4 +1,4 @@
-!> What the program tells a user of a scene: solved and judged as a single scene is, as a row of a campaign, or as a
+!> What the program reports to a user of a scene: solved and judged as a single scene is, as a row of a campaign, or as a
 !> value of a sweep, without their files. The only file of this study that knows how the program does that.
 module reported_summary
    use verification, only: verification_sentence, verification_word
@@ -51,7 +51,7 @@ module reported_summary
 
 contains
 
-   !> Steps that scenes are likely to take, as far as their first periods tell; a steady motion is found after `settled` of them.
+   !> Steps that scenes are likely to take, as far as their first periods show; a steady motion is found after `settled` of them.
    function steps_expected(drawn) result(steps)
       !> Scenes of one accuracy
       type(drawn_scene_t), intent(in) :: drawn(:)
@@ -73,7 +73,7 @@ contains
                                                       drawn%scene%solver%until == until_steady)
    end function steps_expected
 
-   !> What the summary of a scene tells.
+   !> What the summary of a scene shows.
    subroutine summary_reported(drawn, reported)
       !> The scene with its solver
       type(drawn_scene_t), intent(in) :: drawn
@@ -126,7 +126,7 @@ contains
       if (.not. has_two_flanks(judged%resolved%problem)) extremes(5:) = 0.0_dp
    end function extremes_of
 
-   !> What a campaign tells of scenes that differ from a base in some keys.
+   !> What a campaign reports of scenes that differ from a base in some keys.
    subroutine rows_reported(base, keys, values, verified, reported)
       !> Base scene with its solver
       type(scene_t), intent(in) :: base
@@ -192,7 +192,7 @@ contains
       end do
    end subroutine rows_reported
 
-   !> What a sweep tells of a value.
+   !> What a sweep reports of a value.
    subroutine value_reported(scene, state, reported)
       !> Scene with that value
       type(scene_t), intent(in) :: scene

@@ -26,7 +26,7 @@ contains
       type(group_t), intent(in) :: group
       !> Its scenes
       type(drawn_scene_t), intent(in) :: drawn(:)
-      !> What they are held against
+      !> What they are compared with
       type(reference_t), intent(in) :: references(:)
       !> How they came out
       type(outcome_t), intent(out) :: results(:)

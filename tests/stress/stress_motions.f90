@@ -1,4 +1,4 @@
-!> Random gear scenes, all motions that the program tells of them held against random starts of an independent solver.
+!> Random gear scenes, all motions that the program reports of them compared with random starts of an independent solver.
 !>
 !>    stress_motions [--scenes N] [--first I] [--starts N] [--seed S] [--seconds T] [--csv FILE]
 !>
@@ -23,7 +23,7 @@ program stress_motions
 
    !> Shares of the starts: motions that are counted, and those that are looked into one by one [-].
    real(dp), parameter :: counted = 0.05_dp, looked_into = 0.2_dp
-   !> Relative difference of the acceleration rms within which a row tells a motion [-].
+   !> Relative difference of the acceleration rms within which a row reports a motion [-].
    real(dp), parameter :: same_rms = 0.05_dp
    !> Distance of states within which a motion repeats after a part of its period [-]; the reference is good for a tenth of it.
    real(dp), parameter :: same_period = 1.0e-3_dp
@@ -253,7 +253,7 @@ contains
       if (place <= size(found%motions)) period = size(found%motions(place)%states)
    end function period_of
 
-   !> Whether a row tells a motion: by the rms of the loudest, quietest or own one, or between them where the row counts more.
+   !> Whether a row reports a motion: by the rms of the loudest, quietest or own one, or between them where the row counts more.
    pure logical function is_reported_in_row(rms, reported_row) result(is_reported)
       real(dp), intent(in) :: rms
       type(reported_row_t), intent(in) :: reported_row

@@ -50,7 +50,7 @@ contains
 
    !> Outcome of an error-controlled engine.
    pure function judge_controlled(reference, periods, accuracy, films, ending) result(outcome)
-      !> What it is held against
+      !> What it is compared with
       type(reference_t), intent(in) :: reference
       !> Periods of the reference
       integer, intent(in) :: periods

@@ -1,4 +1,4 @@
-!> What the engines are held against: every scene of a group solved by collocation far tighter than any
+!> What the engines are compared with: every scene of a group solved by collocation far tighter than any
 !> engine, and its sensitivity.
 !>
 !> Sensitivity. An error e made somewhere has grown to g e where it is looked at, and no method that is only

@@ -1,4 +1,4 @@
-!> Random scenes by every engine, each held against an independent tighter solution.
+!> Random scenes by every engine, each compared with an independent tighter solution.
 !>
 !>    stress_scenes [--scenes N] [--seed S] [--first I] [--csv FILE] [--failures FILE] [--list OUTCOME]
 !>                  [--accuracy A]

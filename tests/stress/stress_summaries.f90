@@ -1,5 +1,5 @@
 !> Random scenes solved and judged as a user has them judged, each summary, each row of a campaign and each value of a
-!> sweep held against the true motion.
+!> sweep compared with the true motion.
 !>
 !>    stress_summaries [--scenes N] [--campaigns N] [--sweeps N] [--seed S] [--first I] [--longest STEPS] [--failures FILE]
 !>       [--list OUTCOME]

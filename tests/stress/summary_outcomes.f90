@@ -1,4 +1,4 @@
-!> Whether what a summary tells is true.
+!> Whether what a summary reports is true.
 !>
 !> A verified summary is a silent failure if its class is none that the true motion can have, if an extreme of film or
 !> acceleration or one of the first harmonics is farther off than the error that it states, if the motion that it

@@ -93,7 +93,7 @@ contains
 
    end subroutine test_values_of_sweeps
 
-   !> The drag is held against the largest inertia force of the scene, with its scale.
+   !> The drag is compared with the largest inertia force of the scene, with its scale.
    subroutine test_drag_warning(checks)
       class(check_list_t), intent(inout) :: checks
       real(dp), parameter :: largest = 750.0_dp*force_of_one
@@ -231,7 +231,7 @@ contains
 
    end subroutine test_reported_units
 
-   !> The data of an oil are held against the coldest and the hottest of all scenes.
+   !> The data of an oil are compared with the coldest and the hottest of all scenes.
    subroutine test_temperatures(checks)
       class(check_list_t), intent(inout) :: checks
       character(*), parameter :: campaign = '&scene task = "campaign" /'//line_feed//'&campaign vary = "shaft.speed_rpm", '// &

@@ -1,5 +1,5 @@
-!> Tests of the displacements that implicit steps carry along: they are the differences of neighbouring motions, and what they tell
-!> of periodic and irregular motions is what neighbours tell.
+!> Tests of the displacements that implicit steps carry along: they are the differences of neighbouring motions, and what they show
+!> of periodic and irregular motions is what neighbours show.
 module test_elastic_tangents
    use canonical_scenes, only: canonical_scene, loose_gear, scene_g
    use carried_loads, only: counts_as, sizes_of_state

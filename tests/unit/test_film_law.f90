@@ -172,7 +172,7 @@ contains
       end do
    end subroutine test_linearised
 
-   !> A law that nobody knows is refused by every choice, never taken for another one.
+   !> A law that no one knows is refused by every choice, never taken for another one.
    subroutine test_unknown_law(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 

@@ -79,7 +79,7 @@ contains
       row = row_of_pair(scene, judged)
    end function row_of
 
-   !> Forces that know nothing of each other add as the root of their squares, those of one shaft by their phases.
+   !> Forces that are independent of each other add as the root of their squares, those of one shaft by their phases.
    subroutine test_sums(checks, rows)
       class(check_list_t), intent(inout) :: checks
       type(pair_row_t), intent(in) :: rows(:)
@@ -141,7 +141,7 @@ contains
       call expect(checks, summary, " &pair gear = 'g2' status = 'film_lost' / ")
    end subroutine test_failed_pair
 
-   !> A call that ended before the last pair tells no sum of the others.
+   !> A call that ended before the last pair shows no sum of the others.
    subroutine test_pairs_not_begun(checks, rows)
       class(check_list_t), intent(inout) :: checks
       type(pair_row_t), intent(in) :: rows(:)

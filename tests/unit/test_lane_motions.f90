@@ -258,7 +258,7 @@ contains
       end do
    end subroutine test_steady
 
-   !> Periods that return to the last bit are not computed again, and nobody can tell: films, velocities, states, steps.
+   !> Periods that return to the last bit are not computed again, and no one can see: films, velocities, states, steps.
    subroutine test_returning_periods(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 

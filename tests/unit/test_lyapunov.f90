@@ -26,7 +26,7 @@ contains
       call test_repeating(checks)
    end subroutine run_lyapunov_tests
 
-   !> Blocks of 5 periods tell the error; halves and the last quarter have to grow, and all periods have to be there.
+   !> Blocks of 5 periods show the error; halves and the last quarter have to grow, and all periods have to be there.
    subroutine test_growths(checks)
       type(check_list_t), intent(inout) :: checks
 

@@ -73,7 +73,7 @@ contains
    end subroutine test_starts
 
    !> What is drawn fills the middle half of the gap and twice v* either way evenly, differs from seed to seed, and film and velocity
-   !> know nothing of each other.
+   !> are independent of each other.
    subroutine test_drawn(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       integer, parameter :: n = 4000

@@ -247,7 +247,7 @@ contains
                               'nor to the film')
    end subroutine test_bound
 
-   !> A run until steady ends with a window that repeats, and tells each period once.
+   !> A run until steady ends with a window that repeats, and shows each period once.
    subroutine test_repetition(checks)
       type(check_list_t), intent(inout) :: checks
       type(scene_t) :: scene

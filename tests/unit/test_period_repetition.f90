@@ -1,4 +1,4 @@
-!> Tests of the watcher that tells when a motion repeats, on states that approach known motions at known rates.
+!> Tests of the watcher that shows when a motion repeats, on states that approach known motions at known rates.
 !> The film stays near one, where its weight is a half.
 module test_period_repetition
    use checks, only: check_list_t
@@ -217,7 +217,7 @@ contains
       end do
    end subroutine test_pairs
 
-   !> h'' + d h' + k h = 0 is that far from rest that its amplitude tells, however little it moves in a period: films that creep or
+   !> h'' + d h' + k h = 0 is that far from rest that its amplitude shows, however little it moves in a period: films that creep or
    !> swing, with multipliers up to 0.9999, from states whose steps a period are below any tolerance of their ratios.
    subroutine test_slow_films(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results

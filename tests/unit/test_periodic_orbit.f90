@@ -84,7 +84,7 @@ contains
    end subroutine test_off_the_orbit
 
    !> A motion that changes little in a period, because the force is fast, hardly moves in one even far from the motion that
-   !> repeats: how far that is tells whether it is meant.
+   !> repeats: how far that is shows whether it is meant.
    subroutine test_slow_return(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       type(problem_t) :: lane

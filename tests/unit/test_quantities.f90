@@ -123,7 +123,7 @@ contains
       end do
    end subroutine test_every_value
 
-   !> What sweeps and campaigns tell of a scene is what its summary tells, but for how it was solved.
+   !> What sweeps and campaigns report of a scene is what its summary reports, but for how it was solved.
    subroutine test_same_values(single, swept, row, checks)
       type(judged_scene_t), intent(in) :: single  !> As a single scene
       type(judged_scene_t), intent(in) :: swept   !> As a value of a sweep

@@ -37,7 +37,7 @@ contains
       do period = 1, most
          place = period
          if (period > settling) place = settling + 1 + modulo(period - settling - 1, length)
-         ! Film and velocity do not both tell places apart.
+         ! Film and velocity do not both distinguish places.
          call look_back(past, period, [1.0_dp + real(place/2, dp), real(modulo(place, 2), dp)], &
                         period*steps_per_period, cycle_periods, cycle_steps)
          found = period

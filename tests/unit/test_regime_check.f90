@@ -263,7 +263,7 @@ contains
 
    end subroutine test_sentences
 
-   !> The widest film is held against a tenth of the radius, the thinnest one against 1 nm.
+   !> The widest film is compared with a tenth of the radius, the thinnest one against 1 nm.
    subroutine test_model_limit(checks)
       type(check_list_t), intent(inout) :: checks
       real(dp), parameter :: radius = 0.01_dp

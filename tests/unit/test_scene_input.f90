@@ -25,7 +25,7 @@ contains
       call test_override(checks)
    end subroutine run_scene_input_tests
 
-   !> Values that nobody set.
+   !> Values that no one set.
    subroutine test_defaults(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 

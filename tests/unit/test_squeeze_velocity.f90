@@ -96,7 +96,7 @@ contains
       end do
    end subroutine test_there_and_back
 
-   !> Known pairs of A and load group, also at the ends of what numbers can tell.
+   !> Known pairs of A and load group, also at the ends of what numbers can show.
    subroutine test_groups(checks)
       type(check_list_t), intent(inout) :: checks
 
@@ -165,7 +165,7 @@ contains
       call squeeze_velocity(film, thickness, load, 0.0_dp, velocity, by_film, by_load, outcome)
    end function velocity_at
 
-   !> Loads that no velocity gives, and a law that nobody knows.
+   !> Loads that no velocity gives, and a law that no one knows.
    subroutine test_refusals(checks)
       type(check_list_t), intent(inout) :: checks
 

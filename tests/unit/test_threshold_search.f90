@@ -36,7 +36,7 @@ contains
       call test_cut_anywhere(checks)
    end subroutine run_threshold_search_tests
 
-   !> A bound from below tells its side where it has reached the level, and nowhere else; a number tells it everywhere.
+   !> A bound from below shows its side where it has reached the level, and nowhere else; a number shows it everywhere.
    subroutine test_bounds(checks)
       type(check_list_t), intent(inout) :: checks
       real(dp), parameter :: level = 12.0_dp, quantity(3) = [11.0_dp, 12.0_dp, 13.0_dp]

@@ -55,7 +55,7 @@ contains
       integer, intent(in) :: periods                   !> To solve
       integer, intent(in) :: window                    !> Of them judged
       real(dp), allocatable, intent(out) :: states(:, :), accelerations(:)  !> Samples
-      type(window_record_t), intent(out) :: record     !> What the steps tell
+      type(window_record_t), intent(out) :: record     !> What the steps show
       type(motion_state_t) :: start
       type(ending_t) :: ending
 
@@ -81,7 +81,7 @@ contains
       call checks%check_close(found%dissipated_energy, 3.1298907e-4_dp, 0.6e-11_dp, 'reference: dissipated energy')
    end subroutine test_reference
 
-   !> In a periodic motion the film takes what the force gives, and steps and samples tell the same.
+   !> In a periodic motion the film takes what the force gives, and steps and samples show the same.
    subroutine test_work(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       character(*), parameter :: names(6) = [character(16) :: 'half-pi', 'solved', 'successive', 'published piezo', 'exact iso', &

@@ -1,4 +1,4 @@
-!> Tests of what the steps of a window tell: extremes between samples, sums by which the window closes, Fourier integrals.
+!> Tests of what the steps of a window show: extremes between samples, sums by which the window closes, Fourier integrals.
 module test_window_record
    use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t, same_bits
@@ -121,7 +121,7 @@ contains
    end subroutine test_peaks
 
    !> Curves of up to 1.27 oscillations a piece, several of whose peaks look alike by parabolas through their nodes: the highest and
-   !> the lowest place of each is found, to what eight nodes tell.
+   !> the lowest place of each is found, to what eight nodes show.
    subroutine test_curves(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 

@@ -51,7 +51,7 @@ def rattle() -> Path:
 
 @pytest.fixture(scope="session")
 def shim(repository: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A library that lets an output call of the program meet a fault, or tells which calls there are."""
+    """A library that lets an output call of the program meet a fault, or shows which calls there are."""
     library = tmp_path_factory.mktemp("shim") / "inject_faults.so"
     source = repository / "tests" / "faults" / "inject_faults.c"
     subprocess.run(["gcc", "-shared", "-fPIC", "-o", library, source, "-ldl"], check=True)

@@ -1,4 +1,4 @@
-"""Numbers and sentences as program and scripts tell them, made anew from what they tell of."""
+"""Numbers and sentences as program and scripts print them, made anew from what they report."""
 
 from __future__ import annotations
 

@@ -134,7 +134,7 @@ def line_of(text: str, key: str, group: str) -> int:
 
 @pytest.mark.parametrize("file", BAD_FILES, ids=lambda file: file.stem)
 def test_bad_file(file: Path, refused, tmp_path: Path) -> None:
-    """The files tell in their first lines what is expected of them."""
+    """The files show in their first lines what is expected of them."""
     text = file.read_text()
     expected = re.findall(r"^! expect: (.*)$", text, flags=re.MULTILINE)
     assert expected

@@ -1,4 +1,4 @@
-"""calibrate.py finds again what measurements were made with, and says how well they tell it."""
+"""calibrate.py finds again what measurements were made with, and says how well they determine it."""
 
 from __future__ import annotations
 

@@ -73,7 +73,7 @@ def test_a_missing_end_is_named(made, tmp_path):
 
 
 def test_the_last_part_of_a_table_is_missed(tmp_path):
-    """No part tells how many scenes the CSV file has: only the number of parts shows a missing end."""
+    """No part shows how many scenes the CSV file has: only the number of parts shows a missing end."""
     made = csv_table()
     paths = made.write_parts(tmp_path, 2)
     assert merge(tmp_path, *paths, "--output", "all.rattle").returncode == 0

@@ -1,4 +1,4 @@
-"""The class does not hang on how the force is written: random gears, each change of their orders."""
+"""The class does not depend on how the force is written: random gears, each change of their orders."""
 
 from __future__ import annotations
 

@@ -178,7 +178,7 @@ def test_starts_end_early_on_a_known_irregular_motion(run, repository: Path, tmp
         # whether the motion from rest at 2400 1/min comes to the one that repeats.
         from_rest = reported["rattle_class"].startswith("irregular")
         assert (from_rest or motions == 2) and reported["motions"] == motions
-        # 28 starts of 32 periods, and 60 of the motion that they are held against; of 120 each they had 3360.
+        # 28 starts of 32 periods, and 60 of the motion they are compared with; of 120 each they had 3360.
         assert reported["start_periods"] < 1100
         unsettled = 30 - motions - (not from_rest)
         assert reported["unsettled_starts"] == unsettled
@@ -214,7 +214,7 @@ def test_a_motion_of_six_periods_is_reported_once(run, repository: Path, tmp_pat
 
 
 def solve_pair(run, repository: Path, folder: Path, place: int, *keys: str) -> tuple[str, dict]:
-    """What the log and the summary of a pair of gearbox_map tell at an operating point of its own."""
+    """What the log and the summary of a pair of gearbox_map show at an operating point of its own."""
     text = one_pair((repository / "input" / "gearbox_map.nml").read_text(), place)
     (folder / "gearbox_run_up.csv").write_bytes((repository / "input" / "gearbox_run_up.csv").read_bytes())
     (folder / "scene.nml").write_text(text.replace("'campaign'", "'motion'"))

@@ -1,4 +1,4 @@
-"""Every column of the tables of films and sweeps, held against the kernels and against single scenes."""
+"""Every column of the tables of films and sweeps, compared with the kernels and against single scenes."""
 
 from __future__ import annotations
 
@@ -159,7 +159,7 @@ def test_a_row_of_a_sweep_is_the_single_scene(key, group, first, last, run, scen
         for name in ("film_minimum", "film_maximum", "acceleration_minimum", "acceleration_maximum"):
             assert rows[name][row] == pytest.approx(one[name], rel=1e-5), name
         for name in ("natural_frequency", "harmonic_distortion"):
-            # A sweep tells 0 where there is none: overdamped motions have no natural frequency.
+            # A sweep has 0 where there is none: overdamped motions have no natural frequency.
             assert rows[name][row] == pytest.approx(one.get(name, 0.0), rel=1e-5), name
         for name in ("orbit_period", "harmonic_count"):
             assert rows[name][row] == one[name], name

@@ -15,7 +15,7 @@ from script_calls import call_script
 import rattle
 from rattle.figures import motion, spectra, style, sweep, tolerance
 
-# Harmonics, and lines between them that fit 16 and 20 periods. The slowest tells the periods apart.
+# Harmonics, and lines between them that fit 16 and 20 periods. The slowest distinguishes the periods.
 LINES = {0.25: 0.5, 1.0: 10.0, 2.0: 8.0, 3.0: 3.0, 4.5: 2.0}
 PERIOD = 2.0  # ms
 ACCELERATION = r"Acceleration $\ddot{z}$ [m/s$^2$]"
@@ -188,7 +188,7 @@ def test_figure_10_ends_behind_the_last_line_that_counts_or_is_near(tmp_path, la
 
 
 def test_spectra_of_several_runs_end_at_the_same_frequency(tmp_path, idle):
-    """Those of one call can be held against each other: all end where the widest one does."""
+    """Those of one call can be compared with each other: all end where the widest one does."""
     wide = write_motion(tmp_path / "wide.rattle", lines={1.0: 5.0, 14.0: 0.1})
     results = [rattle.read(path) for path in (idle, wide)]
     with style.house_style():
@@ -221,7 +221,7 @@ def test_spectra_under_several_harmonics_count_harmonics_where_there_is_no_shaft
     assert_lines(axes, 2, {ratio: lines[ratio] for ratio in (2.0, 12.0, 50.0)})
     assert axes.get_xlim() == (0.0, 50.5)
     assert axes.get_xlabel() == "Harmonic, multiple of 500 Hz"
-    # The largest line at a harmonic of the force is what the others are held against.
+    # The largest line at a harmonic of the force is what the others are compared with.
     assert drawn.rules(axes, "y") == pytest.approx([0.05])
     assert drawn.legend_words(made)[1:] == ["at harmonics of the force", "1 % of harmonic 2"]
     both = figure(10, path, write_motion(tmp_path / "paper.rattle", lines={1.0: 5.0})).axes

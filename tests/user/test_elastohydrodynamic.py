@@ -37,7 +37,7 @@ def canonical(repository: Path) -> Path:
     (("constant", 242.4, 0.684e-6), ("roelands", 251.0, 1.914e-6)),
 )
 def test_the_load_of_the_paper(law: str, peak: float, film: float, canonical: Path) -> None:
-    """Beside films solved in nodes, of which it tells the peak within 1.5, the least film within 4 %."""
+    """Beside films solved in nodes, of which it shows the peak within 1.5, the least film within 4 %."""
     reported = package.run(canonical, set={"lubricant.viscosity_law": law}).summary
     assert reported["verification"] == "verified" and reported["harmonic_count"] == 6
     assert reported["acceleration_maximum"] == pytest.approx(peak, rel=0.015)

@@ -101,7 +101,7 @@ MOST_COLUMNS = 30
 PAIRS = 100
 # From these most of a gear pair follows.
 SOURCES = {"shaft.speed_rpm", "oil.temperature_celsius", "gear.teeth_1"}
-# What a sweep tells that follows from its value alone, however its motion began.
+# What a sweep reports that follows from its value alone, however its motion began.
 FOLLOWING = ("steady_film", "natural_frequency", "damping_ratio", "drag_torque", "inertia_ratio")
 
 

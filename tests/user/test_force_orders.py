@@ -70,7 +70,7 @@ def test_motion_under_three_orders_is_the_reference(run, scene_text, tmp_path: P
         ACCELERATIONS, rel=0.0, abs=DIGITS * ACCELERATIONS[1]
     )
     assert summary["harmonics"][:8] == pytest.approx(HARMONICS, rel=0.0, abs=DIGITS * max(HARMONICS))
-    # Lines at the orders of the force are no sign of rattle: the others are held against them.
+    # Lines at the orders of the force are no sign of rattle: the others are compared with them.
     assert summary["harmonic_distortion"] == pytest.approx(0.590501, abs=1e-6)
     assert summary["harmonic_count"] == 14
     assert summary["verification"] == "verified"

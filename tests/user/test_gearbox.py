@@ -94,7 +94,7 @@ def test_each_pair_is_the_scene_of_its_own_input(solve, tmp_path: Path) -> None:
     assert table["film_force_rms_uncorrelated"] == pytest.approx(force**0.5, rel=1e-14)
     # Of a run that looks for no repetition the window is the last two of its periods, for all pairs.
     in_phase = np.std(sum(force_of(tmp_path / "results", gear, 2) for gear in ("box.1st", "box.4th")))
-    # Samples of 1024 a period are some thousandths off the steps, which tell the rms of each pair.
+    # Samples of 1024 a period are some thousandths off the steps, which show the rms of each pair.
     assert table["film_force_rms_in_phase"] == pytest.approx(in_phase, rel=3e-3)
     assert table["film_force_rms_in_phase"] > 1.02 * table["film_force_rms_uncorrelated"]
     assert "over the last 2 periods of 8, the window of all pairs" in table["film_force_text"]
@@ -111,7 +111,7 @@ def test_each_pair_is_the_scene_of_its_own_input(solve, tmp_path: Path) -> None:
 
 
 def test_few_samples_of_the_series_leave_the_sum_of_forces(solve, tmp_path: Path) -> None:
-    """The forces are sampled until they have the power that the steps tell, which 64 samples do not."""
+    """The forces are sampled until they have the power that the steps show, which 64 samples do not."""
     reported = []
     for samples in (64, 4096):
         solve("box", BOTH, "--set", f"solver.samples_per_period={samples}")

@@ -520,7 +520,7 @@ def test_a_limit_of_processor_time_keeps_the_state(rattle: Path, run, scene_text
 def test_what_may_not_be_read_is_reported_as_such(
     which: str, rattle: Path, run, scene_text, tmp_path: Path
 ) -> None:
-    """Root may read all, so for root the program runs as nobody, from a copy that nobody can reach."""
+    """Root may read all, so for root the program runs as nobody, from a copy that no one can reach."""
     (tmp_path / "scene.nml").write_text(scene_text())
     assert run("--quiet", "scene.nml", cwd=tmp_path).returncode == 0
     unread = tmp_path / ("scene.nml" if which == "input" else "results/scene.summary.nml")

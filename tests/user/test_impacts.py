@@ -221,7 +221,7 @@ def test_a_row_counts_the_power_beyond_its_harmonics(run, scene_text, tmp_path: 
 
 
 def test_a_window_shorter_than_the_motion_does_not_tell_all_impacts(run, scene_text, tmp_path: Path) -> None:
-    """The tooth hits its only flank in one of three periods: a window of another one tells of none."""
+    """The tooth hits its only flank in one of three periods: a window of another one has none."""
     changes = {
         "contact": {"radius": "0.0361043", "length": "2.402676e-3"},
         "lubricant": {"viscosity": "0.0333384"},

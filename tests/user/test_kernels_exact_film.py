@@ -1,4 +1,4 @@
-"""The Reynolds film in its groups, held against arbitrary precision and known properties."""
+"""The Reynolds film in its groups, compared with arbitrary precision and known properties."""
 
 from __future__ import annotations
 

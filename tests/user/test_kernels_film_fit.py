@@ -1,4 +1,4 @@
-"""The film-thickness regression: known laws found again, the window held against the Reynolds film."""
+"""The film-thickness regression: known laws found again, the window compared with the Reynolds film."""
 
 from __future__ import annotations
 

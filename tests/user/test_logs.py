@@ -1,4 +1,4 @@
-"""Every line of a log is what the summary, or the row, tells: each number with its scale and rounding."""
+"""Every line of a log is what the summary, or the row, reports: each number with its scale and rounding."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ STEEL = 14e9  # stiffness of a steel tooth for each length of contact [N/m2]
 
 
 def log_of(path: Path) -> list[str]:
-    """The log without warnings of odd inputs, which tell of no result."""
+    """The log without warnings of odd inputs, which report of no result."""
     lines = path.with_suffix(".log").read_text().splitlines()
     return [line for line in lines if "is not what machines have" not in line]
 
@@ -304,7 +304,7 @@ def named(text: str, name: str) -> str:
 TAYLOR = {"steps_per_period": None, "method": None, "periods": "60", "accuracy": "1e-6", "until": "'steady'"}
 EXACT = {"law": "'iso-viscous'", "model": "'reynolds'"}
 GAP = {"backlash": "1e-5", "stiffness": "1e9"}
-# What each scene makes a log tell beside the rest: another regime, limit, way of sampling, or end.
+# What each scene makes a log report beside the rest: another regime, limit, way of sampling, or end.
 MOTIONS = {
     "plain": {},
     "calm": {"solver": TAYLOR},

@@ -124,7 +124,7 @@ def test_failed_task_leaves_the_earlier_files(
 )
 @pytest.mark.parametrize("kind", [*KINDS, *(f"{kind}.{LEFT}" for kind in KINDS[1:]), "lock"])
 def test_empty_file_is_ours(kind: str, command: list[str], run, scene_text, tmp_path: Path) -> None:
-    """A crash between the making of a file and its first bytes stops nobody."""
+    """A crash between the making of a file and its first bytes stops no one."""
     (tmp_path / "scene.nml").write_text(scene_text())
     (tmp_path / "results").mkdir()
     (tmp_path / "results" / f"scene.{kind}").touch()
@@ -348,6 +348,6 @@ def test_campaign_replaces_its_files_only_if_asked(
             (tmp_path / "results" / f"scene.{other}").unlink()
     expected = f"results/scene.{kind} exists; --resume continues it, --overwrite replaces it"
     assert refused("scene.nml") == [f"scene.nml: &output overwrite: {expected}"]
-    # A summary alone tells nothing of its input, which might be another.
+    # A summary alone shows nothing of its input, which might be another.
     option = "--overwrite" if kind == "summary.nml" else "--resume"
     assert run(option, "scene.nml", cwd=tmp_path).returncode == 0

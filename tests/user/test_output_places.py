@@ -30,7 +30,7 @@ def test_folder_where_none_can_be_made(refused, scene_text, tmp_path: Path) -> N
 
 
 def test_folder_without_permission(refused, rattle: Path, scene_text, tmp_path: Path) -> None:
-    """Root may write anywhere, so for root the program runs as nobody, from a copy that nobody can reach."""
+    """Root may write anywhere, so for root the program runs as nobody, from a copy that no one can reach."""
     (tmp_path / "scene.nml").write_text(scene_text())
     (tmp_path / "results").mkdir(mode=0o555)
     as_nobody: dict[str, object] = {}

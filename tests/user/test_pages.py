@@ -108,7 +108,7 @@ def reader_of_keys(given: Mapping[str, Mapping[str, Any]]) -> Callable[[Rows], N
 
 
 def reader_of_computed(given: Mapping[str, Mapping[str, Any]], summary: Reported) -> Callable[[Rows], None]:
-    """How it was computed: settings of the input, and what the summary tells beside quantities."""
+    """How it was computed: settings of the input, and what the summary reports beside quantities."""
     solver = given.get("solver", {})
     known = {
         "Relative accuracy of the film that was aimed at": (solver.get("accuracy"), ""),
@@ -402,7 +402,7 @@ def assert_motion(path: Path) -> None:
     }
     lines = ORDERS if shaft else LINES
     assert_tables(page, readers, [NUMBERS, ERRORS, QUANTITIES, lines, KEYS, COMPUTED])
-    # All that the summary tells has a row.
+    # All that the summary reports has a row.
     plain = [name for name in summary if name in codes.QUANTITIES and not isinstance(summary[name], list)]
     assert [row[0] for row in page.tables[2][1:]] == plain
     sentences, silent = sentences_on_motion(summary, given)

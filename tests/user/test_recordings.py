@@ -52,7 +52,7 @@ def assert_orders(shaft: Mapping, *, shift: float = 0.0, mean: float = 812.7, lo
         size, angle = found[order]
         assert size == pytest.approx(amplitude * ENGINE.mean * RPM, rel=loose * AMPLITUDE), order
         off = np.degrees(np.angle(np.exp(1j * (angle - phase - order * shift))))
-        # A tacho does not tell in which of the two turns of a cycle the recording begins.
+        # A tacho does not show in which of the two turns of a cycle the recording begins.
         off = min(abs(off), abs(abs(off) - 180.0)) if shift and order % 1.0 else abs(off)
         assert off < loose * PHASE, (order, off)
 
@@ -103,7 +103,7 @@ VARIANTS = (
 @pytest.mark.parametrize("name", VARIANTS)
 def test_one_speed_as_benches_write_it(cycle, tmp_path: Path, name: str) -> None:
     path, said = text_of(name, tmp_path)
-    # Stamps of 4 ms tell where a cycle begins to half of that, 10 deg, and no mean of them the phase better.
+    # Stamps of 4 ms show where a cycle begins to half of that, 10 deg, and no mean of them the phase better.
     shaft = cycle(path, said=said)
     if name == "repeated stamps":
         sizes = dict(zip(shaft["orders"], shaft["speed_amplitudes"], strict=True))
@@ -241,7 +241,7 @@ def test_a_spike_is_reported_and_mended_on_request(
     assert value == 0.0 or f"warning: {stem}" in warned
     mended = cycle("spike.csv", "--mend", said=stem)
     for before, after in zip(whole["speed_amplitudes"][:24], mended["speed_amplitudes"][:24], strict=True):
-        # Of an order whose period is no longer than the gap, as order 12, nobody knows what it does there.
+        # Of an order whose period is no longer than the gap, as order 12, no one knows what it does there.
         assert after == pytest.approx(before, rel=AMPLITUDE, abs=AMPLITUDE * max(whole["speed_amplitudes"]))
 
 

@@ -1,4 +1,4 @@
-"""The check of a release finds each place that tells it otherwise."""
+"""The check of a release finds each place that has another one."""
 
 from __future__ import annotations
 

@@ -294,7 +294,7 @@ def test_flattening_counts_alike_in_all_films() -> None:
 
 @pytest.mark.parametrize("model", ("closure", "resolved"))
 def test_a_motion_of_three_periods_settles_by_its_multiplier(model: str) -> None:
-    """By nodes more slowly than by the closure: each model's own deviations decay by what it tells."""
+    """By nodes more slowly than by the closure: each model's own deviations decay by what it shows."""
     settings = {"film.model": model, "solver.starts": 1} if model == "closure" else {}
     reported = multipliers_of(package.run(FAST, set=settings).summary)
     followed = {"solver.until": "periods", "solver.periods": 81, "solver.samples_per_period": 64}

@@ -1,4 +1,4 @@
-"""Restitution of impacts against motions solved by other means, and what tests/measured tells of it."""
+"""Restitution of impacts against motions solved by other means, and what tests/measured reports of it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A row and a value of a sweep tell of a scene what its summary tells, to the last bit."""
+"""A row and a value of a sweep report of a scene what its summary reports, to the last bit."""
 
 from __future__ import annotations
 
@@ -133,7 +133,7 @@ SLOW = """
 def test_summary_row_and_value_are_the_same(
     shared: str, force: float, until: str, starts: int, rattle: Path, run, tmp_path: Path
 ) -> None:
-    """Every quantity that two of them tell, of all motions too, for any number of starts.
+    """Every quantity that two of them report, of all motions too, for any number of starts.
 
     A row that is followed until steady may jump to where its motion is forecast to settle: it has other
     periods then, and all else within the accuracy. Everything else has the same bits.

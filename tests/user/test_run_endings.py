@@ -211,7 +211,7 @@ def test_memory_does_not_grow_with_the_periods(rattle: Path, scene_text, tmp_pat
 
 
 def test_closed_terminal_does_not_lose_the_run(rattle: Path, scene_text, tmp_path: Path) -> None:
-    """`rattle ... | head -1`: nobody reads any more, but the files are complete."""
+    """`rattle ... | head -1`: no one reads any more, but the files are complete."""
     (tmp_path / "scene.nml").write_text(scene_text())
     reader, writer = os.pipe()
     os.close(reader)

@@ -1,4 +1,4 @@
-"""Separation and impacts: what summaries and rows tell, held against motions solved by other means."""
+"""Separation and impacts: what summaries and rows report, compared with motions solved by other means."""
 
 from __future__ import annotations
 

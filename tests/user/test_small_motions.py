@@ -1,4 +1,4 @@
-"""Natural frequency and damping ratio, held against eigenvalues that numpy finds of films and springs."""
+"""Natural frequency and damping ratio, compared with eigenvalues that numpy finds of films and springs."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def test_small_motions_are_those_of_all_films_and_springs(law, run, scene_text, 
             float(value)
             for value in re.findall(r"^! (?:natural frequency|damping ratio) +([\d.E-]+)", part, re.M)
         ]
-        # --check tells six and five digits; the eigenvalues of stiff springs have lost some of theirs.
+        # --check prints six and five digits; the eigenvalues of stiff springs have lost some of theirs.
         assert numbers == pytest.approx(list(pair or ()), rel=6e-5), name
 
 

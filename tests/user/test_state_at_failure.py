@@ -1,4 +1,4 @@
-"""A motion that ends before its end tells its state there, and its series has every sample up to there."""
+"""A motion that ends before its end shows its state there, and its series has every sample up to there."""
 
 from __future__ import annotations
 

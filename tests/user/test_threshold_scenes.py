@@ -1,4 +1,4 @@
-"""Both ends of every row of a threshold, held against the scenes that stand there, each solved alone."""
+"""Both ends of every row of a threshold, compared with the scenes that stand there, each solved alone."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Thresholds: where along a key a motion changes, held against grids of campaigns."""
+"""Thresholds: where along a key a motion changes, compared with grids of campaigns."""
 
 from __future__ import annotations
 

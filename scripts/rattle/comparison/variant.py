@@ -78,7 +78,7 @@ def compared(variants: list[Variant]) -> list[Variant]:
 
 
 def grouped(paths: Sequence[Path]) -> list[Variant]:
-    """Variants of files, with names that tell them apart; a pair that comes again begins another variant."""
+    """Variants of files, with names that distinguish them; a pair that comes again begins another variant."""
     found: list[tuple[Path, Variant]] = []
     for path in paths:
         if path.name.endswith((MOTIONS_ENDING, PROFILES_ENDING)):

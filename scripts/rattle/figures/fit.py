@@ -93,7 +93,7 @@ def set_limits(figure: Figure, x: tuple[float, float] | None, y: tuple[float, fl
 
 
 def drop_titles(figure: Figure) -> None:
-    """No title; where several panels have one, what tells them apart stays."""
+    """No title; where several panels have one, what distinguishes them stays."""
     figure.suptitle("")
     titles = {axes: axes.get_title(loc="left").split("\n") for axes in panels(figure)}
     own = {axes: lines for axes, lines in titles.items() if lines != [""]}

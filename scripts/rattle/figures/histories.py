@@ -72,7 +72,7 @@ def draw_acceleration(results: Sequence[Result], labels: Sequence[str], periods:
 
 
 def draw_flanks(result: Result, label: str) -> Figure:
-    """Films and loads of both flanks, as far as columns tell them, and the acceleration over a cycle."""
+    """Films and loads of both flanks, as far as columns show them, and the acceleration over a cycle."""
     periods = result.orbit_period or 1
     figure = Figure(figsize=(style.WIDTH, 5.6 if FLANK_LOADS[0] in result else 4.2))
     pairs = [names for names in (FLANK_FILMS, FLANK_LOADS) if all(name in result for name in names)]

@@ -240,7 +240,7 @@ def _draw_single(
         )
     if between.any():
         handles["between the harmonics"] = lines
-    # Under several, harmonics are held against the largest forced one.
+    # Under several, harmonics are compared with the largest forced one.
     reference = 1
     if of_force.size:
         forced_lines = np.where(driven, amplitude, -1.0)

@@ -21,7 +21,7 @@ from rattle.outputs import Writer
 from rattle.result import Result
 from rattle.result_file import ResultFile
 
-# The palette of Okabe and Ito, which colour-blind readers can tell apart.
+# The palette of Okabe and Ito, which colour-blind readers can distinguish.
 LAW_COLOURS = {"iso-viscous": "#0072B2", "piezo-viscous": "#D55E00"}
 RUN_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
 RUN_DASHES = ("-", (0, (5, 1.5)), (0, (1.5, 1.2)), (0, (5, 1.5, 1.2, 1.5)))

@@ -46,7 +46,7 @@ def classify(
     quiet and has no ratios: these are nan then. orbit_period: periods of the force after which the motion is
     known to repeat, if that is known; with several, a motion that were irregular is subharmonic.
     force_orders, force_amplitudes: harmonics of a force of several; lines there are no sign of rattle, the
-    others are held against the largest of them, the reference line.
+    others are compared with the largest of them, the reference line.
     """
     samples = finite_samples(acceleration, "acceleration")
     period = positive_count(samples_per_period, "samples_per_period")

@@ -14,7 +14,7 @@ from rattle.recordings.raw import Raw
 
 __all__ = ["Channel", "RecordingError", "choose", "read_channels", "with_units"]
 
-# Readers by the first bytes of a file, and where these tell nothing by the end of its name.
+# Readers by the first bytes of a file, and where these show nothing by the end of its name.
 BY_BEGINNING: tuple[tuple[bytes, str], ...] = (
     (b"MDF     ", "mdf"),
     (b"UnFinMF ", "mdf"),

@@ -105,7 +105,7 @@ def measure(arguments: argparse.Namespace, notes: list[str]) -> tuple[cycles.Mea
 
 
 def _reference(arguments: argparse.Namespace, channels: Sequence[Channel]) -> Channel | None:
-    """The channel that tells the angle: the one that is named, else the only one that is an angle."""
+    """The channel that shows the angle: the one that is named, else the only one that is an angle."""
     if name := options.reference_name(arguments):
         return choose(channels, name)
     found = [channel for channel in channels if units.fits(channel.unit, "rad")]

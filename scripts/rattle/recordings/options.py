@@ -39,7 +39,7 @@ def add_recording(parser: argparse.ArgumentParser) -> None:
 
 
 def add_shaft(parser: argparse.ArgumentParser) -> None:
-    """What tells the angle of the shaft."""
+    """What shows the angle of the shaft."""
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--angle", metavar="NAME", help="channel with the angle of the shaft")
     which.add_argument("--tacho", metavar="NAME", help="channel with pulses of a wheel on the shaft")

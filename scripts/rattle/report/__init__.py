@@ -43,7 +43,7 @@ def report(paths: Sequence[Path], *, brief: bool = False, limits: Limits | None 
     `limits`: film forces [N rms] that gear pairs, by their names, are to keep.
     """
     limits = limits or {}
-    # What the table of all motions of a scene tells, the part on the scene does.
+    # What the table of all motions of a scene shows, the part on the scene does.
     paths = [path for path in paths if not path.name.endswith(MOTIONS_ENDING)] or paths
     results = [opened(path) for path in paths]
     names = [path.name.removesuffix(".rattle") for path in paths]

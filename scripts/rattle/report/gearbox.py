@@ -107,7 +107,7 @@ def pairs_table(summaries: Mapping[str, Summary], limits: Limits) -> str:
     rows = []
     for gear in sorted(summaries, key=lambda gear: -forces.get(gear, -1.0)):
         one = summaries[gear]
-        # Tables of earlier versions tell of double-sided impacts alone.
+        # Tables of earlier versions report of double-sided impacts alone.
         earlier = {True: "double-sided impacts", False: "no double-sided impacts"}
         verdict = str(one.get("verdict", earlier.get(one.get("double_sided"), "-"))).strip()
         limit = [page.value(limits[gear], "N", page.FEW_DIGITS) if gear in limits else "-"] if limits else []

@@ -388,7 +388,7 @@ def key_figures(summary: Summary) -> str:
 
 
 def quantities(result: Result, summary: Summary) -> list[str]:
-    """Everything that the summary tells, with its meaning."""
+    """Everything that the summary reports, with its meaning."""
     plain = [name for name in summary if name in QUANTITIES and not isinstance(summary[name], list)]
     return [explained(summary, plain), *harmonics(result, summary)]
 

@@ -72,7 +72,7 @@ def worst(campaign: Campaign) -> tuple[float, str] | None:
 
 
 def values_at(campaign: Campaign, row: int, names: Sequence[str]) -> str:
-    """As in '2200 1/min and 120 degC'; keys that their unit does not tell by their names."""
+    """As in '2200 1/min and 120 degC'; keys that their unit does not show by their names."""
     parts = []
     for key in names:
         value = page.plain(float(campaign[key][row]), campaign.units[key], page.FEW_DIGITS)

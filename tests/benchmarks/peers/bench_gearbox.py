@@ -77,7 +77,7 @@ def reported(place: Path, what: str) -> str:
 
 
 def solved_alone(program: str, values: dict[str, float], place: Path) -> list[dict[str, list[float]]]:
-    """What --check tells of each pair at these values, and its largest film as a single scene [m]."""
+    """What --check reports of each pair at these values, and its largest film as a single scene [m]."""
     text = rigid(place).read_text().partition("&campaign")[0].replace("task = 'campaign'", "name = 'one'")
     (place / "one.nml").write_text(text)
     call = [program, "--overwrite", "--output", str(place), *settings(values), str(place / "one.nml")]

@@ -38,7 +38,7 @@ where g is G solved for the velocity: sqrt(y) (1 - y w)/c for (35), -ln(w y^(7/2
 flank w_2 = 0. The motion starts at y_1 = 1, v = 0, the films at no velocity. k is twice the stiffness of the
 steady film. At F0 = 3 Q the film of (37) lets the tooth go: w falls towards 0, g gets infinitely
 steep, and explicit steps do not follow. That scene is a group of its own ("a film that ruptures").
-The motion of (35) with elastic teeth at F0 = 3 Q is chaotic, nobody knows it after 200 periods: it is
+The motion of (35) with elastic teeth at F0 = 3 Q is chaotic, no one knows it after 200 periods: it is
 judged in the last ten of 20 periods, timed over 200, and a group of its own as well. With all three changes
 the films of (35) and (37) are a group each.
 
