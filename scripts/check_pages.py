@@ -41,7 +41,7 @@ TERM = re.compile(
 # A term is defined before an equals sign or "be", in or before parentheses, or behind its noun.
 DEFINED = (
     r"(?<!\w)(?:TERM (?:=|be\b|and \w+ be\b|\()|\((?:\w+, )?TERM\)"
-    r"|(?:[Tt]he|[Aa]n?|its|one|errors|slopes|multipliers) (?:\w+ ){0,2}TERM)"
+    r"|(?:[Tt]he|[Aa]n?|its|one) (?:[a-z]+ ){1,2}TERM|(?:errors|slopes|multipliers) TERM)"
 )
 # Names of products, bodies of standards and signals of the system, and what stands for the user's own word.
 NAMES = re.compile(r"AMD|EPYC|AVX|BSD|LLVM|ISO|DIN|IEC|IIIC|TR|SI|MB|README|SIG\w+|NAME|GEAR")
