@@ -55,7 +55,7 @@ program main
       call run_all_tasks(command, exit_code)
    end if
    if (len(lost_text()) > 0) then
-      call put_error_line(lost_text()//' could not be written; the disk may be full, it was taken away, or the reader has closed')
+      call put_error_line(lost_text()//' could not be written; the disk may be full, the file removed, or the reader closed')
       if (exit_code == exit_complete .or. exit_code == exit_scene_failed) exit_code = exit_system
    end if
    call plan_end()

@@ -33,7 +33,7 @@ def slurm(options: argparse.Namespace) -> None:
     try:
         groups = parse(options.input.read_text(encoding="utf-8"))
     except UnicodeDecodeError:
-        raise command.CommandError(f"{options.input} is no input: it is not plain text.") from None
+        raise command.CommandError(f"{options.input} is not an input: it is not plain text.") from None
     except NamelistError as fault:
         raise command.CommandError(f"{options.input} cannot be read: {fault}") from None
     if "campaign" not in groups:
@@ -197,7 +197,7 @@ def progress_rows(path: Path) -> list[list[str]]:
     except FileNotFoundError:
         return []
     except (OSError, NamelistError, UnicodeDecodeError):
-        command.note(f"{path} cannot be read, it may just be written; it is left out.")
+        command.note(f"{path} cannot be read, perhaps because it is being written; it is left out.")
         return []
     rows = []
     for group in groups.values():

@@ -76,11 +76,11 @@ def new_range(text: str) -> tuple[str, tuple[float, float]]:
 
 def parse_options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
-        description="Tell of each gear pair of an input, at its operating point, how far drag, inertia, "
+        description="Report for each gear pair of an input, at its operating point, how far drag, inertia, "
         "backlash, face width, oil, damping, immersion, synchroniser gap and the acceleration of each order "
         "have to change to end double-sided impacts, impacts and separation, and what an effort of a tenth "
         "gains in dB of film force rms. Each change is solved again. Tables NAME.countermeasures.csv and "
-        ".md, and a figure a pair; report.py shows them where they stand beside the results."
+        ".md, and a figure a pair; report.py shows them if they are beside the results."
     )
     parser.add_argument(
         "input", type=Path, help="input of a pair or gearbox; of a map, at its operating point"

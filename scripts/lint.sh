@@ -35,7 +35,8 @@ check 'style of Fortran' "$tools/fortitude" check --config .fortitude.toml fsrc 
 check 'format of Fortran and Python' formatted
 check 'style of Python' "$tools/ruff" check scripts tests
 check 'links of pages' "$tools/python" scripts/check_links.py
-check 'pages: sentences, paragraphs, idioms' "$tools/python" scripts/check_pages.py
+check 'pages: sentences, paragraphs, idioms, terms' "$tools/python" scripts/check_pages.py
+check 'messages: idioms' "$tools/python" scripts/list_messages.py --idioms
 check 'page of all keys' sh -c "sed '1,/^<!-- tables/d; /^<!-- end of tables/,\$d' input/KEYS.md > '$build/lint/tables.md'
     '$build/lint/rattle' --keys | diff - '$build/lint/tables.md'"
 check 'table of quantities' sh -c "'$build/lint/rattle' --quantities | diff - scripts/rattle/quantities.csv"

@@ -47,7 +47,7 @@ def parse_options() -> argparse.Namespace:
     if first not in COMMANDS and (first.endswith(".rattle") or Path(first).is_file()):
         task = rattle.read(first).task
         right = f"; 'plot.py {task} {first}' draws it" if task in COMMANDS else ""
-        raise command.CommandError(f"{first} is no command{right}.")
+        raise command.CommandError(f"{first} is not a command{right}.")
     return command.parse(parser)
 
 

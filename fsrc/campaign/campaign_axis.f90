@@ -46,12 +46,12 @@ contains
          if (size(axis%values) == 0) message = 'the list of values is empty'
          do i = 1, size(axis%values)
             if (axis%whole .and. .not. is_whole_number(axis%values(i))) then
-               message = 'the value '//real_text(axis%values(i))//' is no integer; this key takes integers'
+               message = 'the value '//real_text(axis%values(i))//' is not an integer; this key takes integers'
                return
             end if
             do j = 1, i - 1
                if (.not. (axis%values(i) < axis%values(j) .or. axis%values(i) > axis%values(j))) then
-                  message = 'the list holds the value '//real_text(axis%values(i))//' twice'
+                  message = 'the list has the value '//real_text(axis%values(i))//' twice'
                   return
                end if
             end do

@@ -124,7 +124,8 @@ contains
       type(fault_list_t), intent(inout) :: faults
 
       if (scenes > unconfirmed_limit .and. .not. scene%campaign%confirm_size) &
-         call faults%add(file, 0, 'campaign', 'confirm_size', integer_text(scenes)//' scenes; set it if that is meant')
+         call faults%add(file, 0, 'campaign', 'confirm_size', integer_text(scenes)// &
+                         ' scenes; set it to .true. if so many are meant')
    end subroutine check_size
 
    !> Axes of the varied keys.
@@ -228,7 +229,7 @@ contains
          if (watcher%is_refused) exit
       end do
       if (invalid > int(most_named, int64) .and. .not. scene%campaign%allow_invalid) &
-         call faults%add(file, 0, 'campaign', '', integer_text(invalid)//' scenes are no valid scenes')
+         call faults%add(file, 0, 'campaign', '', integer_text(invalid)//' scenes are not valid')
 
    contains
 
@@ -242,7 +243,7 @@ contains
             call faults%add(scene%campaign%csv, int(min(number + int(plan%first_line - 1, int64), int(huge(1), int64))), '', '', &
                             why//remedy)
          else
-            call faults%add(file, 0, 'campaign', '', 'scene '//integer_text(number)//' is no valid scene: '//why//remedy)
+            call faults%add(file, 0, 'campaign', '', 'scene '//integer_text(number)//' is not valid: '//why//remedy)
          end if
       end subroutine name_invalid
 

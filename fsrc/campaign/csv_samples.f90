@@ -137,7 +137,7 @@ contains
          call read_name(names(column), units(column)%unit(), position, head, message)
          do i = 1, size(samples%positions)
             if (position > 0 .and. samples%positions(i) == position) &
-               message = 'this key stands in column '//integer_text(i)//' already'
+               message = 'this key is already in column '//integer_text(i)
          end do
          of_column = 0.0_dp
          word = names(column)%shown()

@@ -331,7 +331,7 @@ contains
       call summary%write(summary_path(scene), summary_error)
       if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
       stands = path_exists(result_path(scene))
-      if (.not. (stands .or. allocated(error))) call raise(error, exit_system, result_path(scene)//' was taken away')
+      if (.not. (stands .or. allocated(error))) call raise(error, exit_system, result_path(scene)//' was removed')
    end subroutine write_summary
 
    !> What has to be known about the scenes of this run, and where the files are.
@@ -344,7 +344,7 @@ contains
 
       associate (counts => progress%counts)
          if (counts(count_beyond_model) > 0) call log%line('  warning: '//counted(counts(count_beyond_model), 'scene')// &
-            ' beyond what the model can mean: films beyond a tenth of the radius or below 1 nm (column model_limit)')
+            ' outside the range of the model: films above a tenth of the radius or below 1 nm (column model_limit)')
          if (counts(count_undersampled) > 0) call log%line('  warning: the harmonics of '// &
             counted(counts(count_undersampled), 'scene')//' are not resolved (column sampling_sufficient); '// &
             'raise campaign.samples_per_period')
@@ -352,9 +352,9 @@ contains
             integer_text(counts(count_tested))//' scenes not verified: solved again, tighter, the class is another or close to '// &
             'a limit (column verified)')
          if (counts(count_irregular) > 0) call log%line('  '//counted(counts(count_irregular), 'scene')//' irregular: '// &
-            'their numbers are those of 100 periods and more, with standard errors (rattle_class, acceleration_rms_error)')
+            'their numbers are those of 100 periods or more, with standard errors (rattle_class, acceleration_rms_error)')
          if (counts(count_irregular_so_far) > 0) call log%line('  '//counted(counts(count_irregular_so_far), 'scene')// &
-            ' irregular so far: without repetition, and no neighbouring motion parts for good (rattle_class)')
+            ' irregular so far: no repetition, and no Lyapunov exponent that is surely positive (rattle_class)')
          if (longest%number > 0_int64) call log%line('  the longest: scene '//integer_text(longest%number)//', '// &
                                                      counted(longest%steps, 'step'))
          call log%line('  '//result_path(scene))
@@ -363,7 +363,7 @@ contains
             call log%line('  '//integer_text(counts(count_several))//' of '//counted(counts(count_followed), 'scene')// &
                           ' have several motions; '//integer_text(scene%solver%starts)//' starts'// &
                           trim(merge(' and neighbours', '               ', scenes_of_block(scene, campaign%plan) > 1))// &
-                          ' are no proof of others'' absence')
+                          ' do not prove that there are no others')
       end associate
    end subroutine report_ending
 

@@ -267,19 +267,19 @@ contains
                                          ' a side is not verified'
       call log%line(line)
       if (outcome%wide > 0_int64) call log%line('  the ends of '//counted(outcome%wide, 'crossing')//' are verified only '// &
-                                                'farther apart than asked for: the width tells how sure that is (column width)')
+                                                'farther apart than requested: column width has the distance')
       counts = end_counts(scene, threshold, outcome)
       if (counts(1) > 0_int64) call log%line('  at '//integer_text(counts(2))//' of '//counted(counts(1), 'crossing')// &
                                              ' either side is possible: motions go on beyond the change from rest (columns '// &
                                              'last_below, last_above)')
       if (counts(3) > 0_int64) call log%line('  at '//counted(counts(3), 'crossing')//' an end is that of a motion that does '// &
-                                             'not repeat, to the width of a bracket, or it was lost (columns '// &
+                                             'not repeat, known to the width of a bracket, or is unknown (columns '// &
                                              'motion_end_below, motion_end_above)')
       if (counts(4) > 0_int64) call log%line('  '//integer_text(counts(4))//' of '//counted(outcome%uncrossed, 'trace')// &
                                              ' without any have motions of another side beside those from rest, found from '// &
                                              'other starts: from last_above to last_below')
       if (sum(counts) > 0_int64 .and. scene%solver%starts > 1) &
-         call log%line('  '//counted(scene%solver%starts, 'start')//' are no proof of others'' absence')
+         call log%line('  '//counted(scene%solver%starts, 'start')//' do not prove that there are no others')
       if (outcome%failed > 0_int64) call log%line('  scenes that failed are a kind of their own: where they begin is a '// &
                                                   'crossing (columns status_below, status_above)')
       ! Where there are more parts than traces, some have none.

@@ -240,7 +240,7 @@ contains
       !> Set
       type(error_t), allocatable, intent(out) :: error
 
-      call raise(error, exit_system, path//' cannot be written: it was taken away or replaced while the run wrote it')
+      call raise(error, exit_system, path//' cannot be written: it was removed or replaced while the run wrote it')
    end subroutine raise_taken_away
 
    !> Write bytes behind those that the file has.

@@ -65,8 +65,8 @@ contains
       if (any(kept%bytes > 0_int64) .or. .not. stands) return
       status = value_in_summary(summary_path(scene), 'status')
       if (status == '' .or. status == status_name(status_not_written)) return
-      call raise(error, exit_bad_input, summary_path(scene)//' tells of an earlier run whose result is gone, so that its input '// &
-                 'is not known'//begin_anew)
+      call raise(error, exit_bad_input, summary_path(scene)//' is of an earlier run whose result is missing, so that its input '// &
+                 'is unknown'//begin_anew)
    end subroutine check_lone_summary
 
    !> Open a file of an earlier run of this scene.

@@ -49,7 +49,7 @@ contains
                call put_in_place(results(i)%text, error)
             else
                stands = path_exists(results(i)%text)
-               if (.not. stands) call raise(error, exit_system, results(i)%text//' cannot be written: it was taken away')
+               if (.not. stands) call raise(error, exit_system, results(i)%text//' cannot be written: it was removed')
             end if
             if (allocated(error)) exit
             placed = placed + 1
@@ -57,7 +57,7 @@ contains
          if (.not. allocated(error)) call put_in_place(summary, error)
          do i = 1, size(results)
             stands = path_exists(results(i)%text)
-            if (.not. (stands .or. allocated(error))) call raise(error, exit_system, results(i)%text//' was taken away')
+            if (.not. (stands .or. allocated(error))) call raise(error, exit_system, results(i)%text//' was removed')
          end do
          if (allocated(error) .and. placed == 0) call bring_back(summaries)
          call drop_aside(summaries)

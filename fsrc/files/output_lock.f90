@@ -89,9 +89,9 @@ contains
       else
          without_locks = .true.
          call keep_before(self)
-         self%warning = 'warning: this file system knows no locks ('//why//'); see that no other run writes here'
-         if (self%file%bytes() > 0_int64) self%warning = self%warning//': '//lock_path(stem)//' is there, so another run does, '// &
-                                                         'or was killed'
+         self%warning = 'warning: this file system has no locks ('//why//'); see that no other run writes here'
+         if (self%file%bytes() > 0_int64) self%warning = self%warning//': '//lock_path(stem)//' exists: another run is writing '// &
+                                                         'here, or was killed'
       end if
       if (.not. allocated(error)) call self%file%write_at(0_int64, lock_magic//own_word(), error)
       ! A full disk is no reason not to run: only where there are no locks the word is needed.

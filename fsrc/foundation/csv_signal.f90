@@ -60,7 +60,7 @@ contains
       chosen = 0
       axis = 0
       allocate (recording%samples(0), recording%axis(0), recording%lines(0))
-      call table%open(path, most_samples, 'that is no signal', 'time_s,force', remedy, faults)
+      call table%open(path, most_samples, 'too many for a signal', 'time_s,force', remedy, faults)
       if (faults%count() == before) call choose_column(path, table, column, chosen, axis, faults)
       if (faults%count() == before) then
          recording%column = table%names(chosen)%text

@@ -72,7 +72,7 @@ contains
 
       before = faults%count()
       if (present(gaps_allowed)) table%gaps_allowed = gaps_allowed
-      call table%open(path, most_lines_of_tables, 'that is no table of a test stand', example, remedy, faults)
+      call table%open(path, most_lines_of_tables, 'too many for a table', example, remedy, faults)
       if (faults%count() == before) call table%read([(i, i=1, size(table%names))], faults)
       call table%close()
       if (faults%count() == before .and. size(table%lines) == 0) &
@@ -155,7 +155,7 @@ contains
          if (len(message) > 0) cycle
          call read_strict_real(self%text%numeral(self%fields(i)), number, sound)
          if (sound) message = 'the first line holds numbers; it must name the columns, such as '//example
-         if (index(self%names(i)%text, achar(0)) > 0) message = 'it is no plain text; save it as CSV in UTF-8'
+         if (index(self%names(i)%text, achar(0)) > 0) message = 'it is not plain text; save it as CSV in UTF-8'
          if (index(self%names(i)%text, achar(13)) > 0) message = 'carriage returns alone end its lines; line feeds are needed'
          if (len(message) > 0) message = message//self%remedy
       end do
@@ -278,7 +278,7 @@ contains
          if (len(message) == 0 .and. is_decimal_comma(word)) message = 'column '//integer_text(position)//decimal_commas
          is_hopeless = len(message) > 0
          if (.not. is_hopeless) then
-            message = 'column '//integer_text(position)//': no number stands here'
+            message = 'column '//integer_text(position)//': this is not a number'
             if (len(word) == 0) then
                message = 'column '//integer_text(position)//': a number is missing'
             else if (row == 1) then

@@ -45,7 +45,7 @@ contains
       end if
       allocate (room(int(bytes + margin, int64)), stat=stat)
       if (stat /= 0) call raise(error, exit_system, 'out of memory: '//purpose//' may take '//size_text(bytes)// &
-                                ' beside the '//size_text(margin)//' of the program, and the system does not give so much')
+                                ' beside the '//size_text(margin)//' of the program, more than the system provides')
    end subroutine expect_memory
 
    !> Memory of this machine [bytes], 0 if it is not known.

@@ -64,7 +64,7 @@ contains
       ! No limit is a negative number.
       if (limits(1) < 0_c_long .or. limits(1) >= needed_bytes) return
       call raise(error, exit_system, 'the stack is limited to '//kilobytes(int(limits(1), int64))//' (ulimit -s), and rattle '// &
-                 'takes '//kilobytes(needed_bytes)//'; ulimit -s 8192 is what is usual')
+                 'needs '//kilobytes(needed_bytes)//'; type ulimit -s 8192, the usual limit')
    end subroutine expect_stack
 
    !> Start the threads, and see that each of them has stack enough.
@@ -79,7 +79,7 @@ contains
       !$omp end parallel
       if (least >= needed_bytes) return
       call raise(error, exit_system, 'a thread has a stack of '//kilobytes(least)//' (OMP_STACKSIZE or GOMP_STACKSIZE), and '// &
-                 'rattle takes '//kilobytes(needed_bytes)//'; unset the variable, or set OMP_STACKSIZE=8M')
+                 'rattle needs '//kilobytes(needed_bytes)//'; unset the variable, or set OMP_STACKSIZE=8M')
    end subroutine expect_stacks_of_threads
 
    !> Stack of this thread [bytes]; what is not known is enough.

@@ -186,9 +186,8 @@ contains
          speeds = short_text(lowest, 5)
          if (highest > lowest) speeds = speeds//' to '//short_text(highest, 5)
          lines = [word_t('warning: the motion of the shaft was measured for '//short_text(range(1), 5)//' to '// &
-                         short_text(range(2), 5)//' 1/min (&shaft signal_speed_range) and is carried with the same amplitudes '// &
-                         'to '//speeds//' 1/min: what is computed outside is of a motion that was not measured; '// &
-                         'a run-up (&shaft table) has one for each speed')]
+                         short_text(range(2), 5)//' 1/min (&shaft signal_speed_range) and is used with the same amplitudes for '// &
+                         speeds//' 1/min, beyond these; a run-up (&shaft table) has the motion of each speed')]
       end associate
    end function beyond_measured_speeds
    !> Warnings of the teeth of a pair, and of those at both ends of what is varied.

@@ -317,7 +317,7 @@ contains
          if (scenes(i)%task == task_film .or. scenes(i)%solver%method /= method_newmark) cycle
          if (inner_count(contact_of(scenes(i))) == 0) cycle
          call faults%add(scenes(i)%source, scenes(i)%lines(find_key('solver.method')), 'solver', 'method', &
-                         'the paper''s method cannot follow a film with a state of its own; take taylor')
+                         'the paper''s method cannot follow a film with a state of its own; set method = ''taylor''')
       end do
    end subroutine check_methods
 

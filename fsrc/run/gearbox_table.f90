@@ -99,8 +99,8 @@ contains
       call read_from_summary(summary_path(gearbox), "   gear = ", recorded)
       do i = 1, size(recorded)
          if (any([(recorded(i)%text == gears(j)%text, j=1, size(gears))])) cycle
-         call raise(error, exit_bad_input, summary_path(gearbox)//" belongs to another gearbox: it tells of the gear '"// &
-                    recorded(i)%text//"', which is not set now"//begin_anew)
+         call raise(error, exit_bad_input, summary_path(gearbox)//" belongs to another gearbox: it has the gear '"// &
+                    recorded(i)%text//"', which this input has not"//begin_anew)
          return
       end do
    end subroutine check_earlier_table

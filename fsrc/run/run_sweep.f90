@@ -110,8 +110,8 @@ contains
       if (allocated(error)) then
          call log%line('  '//error%message)
       else
-         if (beyond_model > 0) call log%line('  warning: '//counted(beyond_model, 'motion')//' beyond what the model can '// &
-            'mean: films beyond a tenth of the radius or below 1 nm (column model_limit)')
+         if (beyond_model > 0) call log%line('  warning: '//counted(beyond_model, 'motion')//' outside the range of the '// &
+            'model: films above a tenth of the radius or below 1 nm (column model_limit)')
          call log%line('  '//counted(size(scene%sweep%values), 'motion')//' in '//short_text(wall_seconds() - started, 3)// &
                        ' s: '//ending_sentence(scene, failed, status))
          call log%line('  '//result_path(scene))

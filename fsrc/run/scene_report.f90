@@ -370,10 +370,10 @@ contains
                              '; extremes of an irregular motion grow with time.')
             else if (spectrum%sampling_sufficient .and. any(rattle%class == [class_irregular, class_irregular_so_far])) then
                call log%line('  The motion does not repeat within its window of '//counted(scene%spectrum%periods, 'period')// &
-                             ': other windows have other numbers; more of spectrum.periods steadies them.')
+                             ': other windows have other numbers; raise spectrum.periods for steadier ones.')
             end if
          else
-            call log%line('  no motion but rounding: '//spaced(quantity_word(quantity_rattle_class, rattle%class)))
+            call log%line('  no motion above rounding: '//spaced(quantity_word(quantity_rattle_class, rattle%class)))
          end if
          ! Without a series, samples matter only where the harmonics are theirs.
          if (judged%series_coarse .and. (scene%output%series .or. .not. spectrum%sampling_sufficient)) &

@@ -97,7 +97,7 @@ contains
       real(dp), intent(in) :: number
       character(:), allocatable :: words
 
-      words = real_text(number)//' '//trim(key%unit)//' leads to numbers too large or too small to be computed with; '// &
+      words = real_text(number)//' '//trim(key%unit)//' gives numbers too large or too small to compute with; '// &
               'possible: '//real_text(key%computable(1))//' to '//real_text(key%computable(2))//' '//trim(key%unit)
       if (key%unit == '-') words = words(:len(words) - 2)
    end function not_computable_text

@@ -428,7 +428,7 @@ module key_table
             of_campaigns, &
             'Samples of a period that a scene is judged by; where they are too few, its steps are integrated over.'), &
       key_t('campaign', 'allow_invalid', logical_kind, '', '.false.', any_number, '', of_campaigns, &
-            'Whether scenes that are no valid scenes are recorded as such; else they stop the campaign before it begins.'), &
+            'Whether scenes that are not valid are recorded as such; else they stop the campaign before it begins.'), &
       key_t('campaign', 'confirm_size', logical_kind, '', '.false.', any_number, '', of_campaigns, &
             'Must be true for more than ten million scenes.'), &
       key_t('campaign', 'part', integer_kind, '-', '1', at_least_1, '', of_campaigns, &

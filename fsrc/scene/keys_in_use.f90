@@ -33,7 +33,7 @@ contains
 
       words = broken_rule(input, position)
       if (index(words, without) == 1) then
-         words = 'it cannot stand beside '//words(len(without) + 1:)//'; leave one of the two out'
+         words = 'it excludes '//words(len(without) + 1:)//'; leave one of the two out'
       else
          words = 'this key is used only with '//words//'; leave it out'
       end if

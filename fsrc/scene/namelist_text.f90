@@ -111,7 +111,7 @@ contains
             earlier = earlier + 1
             if (group == repeated_group) cycle
             call faults%add(file, scanner%line, group, '', &
-                            'this group stands in line '//integer_text(assignments(i)%line)//' already')
+                            'this group is already in line '//integer_text(assignments(i)%line))
             exit
          end do
          call scan_group(scanner, file, group, earlier + 1, assignments, used, faults)
@@ -231,7 +231,7 @@ contains
       assignment%key = lower(scanner%take_word())
       if (len(assignment%key) == 0) then
          call faults%add(file, scanner%line, group, '', &
-                         "unexpected '"//scanner%letter()//"'; a key must stand here, as in key = value")
+                         "unexpected '"//scanner%letter()//"'; a key is expected, as in key = value")
          call scanner%step()
          call scanner%skip_fault()
          return

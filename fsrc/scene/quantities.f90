@@ -179,16 +179,16 @@ module quantities
       quantity_t(quantity_acceleration_kurtosis, 'acceleration_kurtosis', '-', a_number, part_window, needs_nothing, &
          'summary campaign', 'Fourth central moment of the acceleration over the square of its variance; of a cosine 1.5.'), &
       quantity_t(quantity_film_force_rms, 'film_force_rms', 'N', a_number, part_window, needs_nothing, 'summary sweep campaign', &
-         'Root of the mean square by which the film force leaves its mean: what the bearings feel.', digits=4), &
+         'Rms of the film force about its mean, which is the load on the bearings.', digits=4), &
       quantity_t(quantity_dissipated_energy, 'dissipated_energy', 'J', a_number, part_window, needs_nothing, 'summary campaign', &
-         'Work that film and teeth take a period of the force, - integral of (W - Q - m g) dh over the window by its periods; '// &
-         'less than 0 at times if it does not repeat.'), &
+         'Work that film and teeth dissipate a period of the force, - integral of (W - Q - m g) dh over the window by its '// &
+         'periods; less than 0 at times if it does not repeat.'), &
       quantity_t(quantity_dissipated_power, 'dissipated_power', 'W', a_number, part_window, needs_nothing, &
          'summary sweep campaign log', 'dissipated_energy times the frequency of the force.', digits=4), &
       quantity_t(quantity_film_dissipated_power, 'film_dissipated_power', 'W', a_number, part_window, needs_nothing, &
-         'summary campaign', 'What the films take of dissipated_power, where teeth are damped: the rest of it.'), &
+         'summary campaign', 'Part of dissipated_power in the films, where teeth are damped.'), &
       quantity_t(quantity_tooth_dissipated_power, 'tooth_dissipated_power', 'W', a_number, part_window, needs_nothing, &
-         'summary campaign', 'What damped teeth take of dissipated_power, the mean of c D''^2 of both flanks.'), &
+         'summary campaign', 'Part of dissipated_power in damped teeth, the mean of c D''^2 of both flanks.'), &
       quantity_t(quantity_coast_film_minimum, 'coast_film_minimum', 'm', a_number, part_window, needs_coast_film_range, &
          'summary flanks campaign', 'Minimum film thickness of the coast flank over the window, where there is a backlash.'), &
       quantity_t(quantity_coast_film_maximum, 'coast_film_maximum', 'm', a_number, part_window, needs_coast_film_range, &
@@ -282,11 +282,11 @@ module quantities
    type(quantity_t), parameter, private :: other_quantities(*) = [ &
       quantity_t(quantity_gear_position_minimum, 'gear_position_minimum', 'm', a_number, part_window, needs_position_range, &
          'summary campaign', &
-         'Smallest gap that the gear leaves over the window, its teeth taken as unloaded: the film less what they give.'), &
+         'Smallest gap of the gear over the window, with teeth as if unloaded: the film less their deflection.'), &
       quantity_t(quantity_gear_position_maximum, 'gear_position_maximum', 'm', a_number, part_window, needs_position_range, &
-         'summary campaign', 'Largest gap that the gear leaves over the window.'), &
+         'summary campaign', 'Largest gap of the gear over the window.'), &
       quantity_t(quantity_model_limit, 'model_limit', '-', a_code, part_window, needs_film_range, 'summary sweep campaign', &
-         'Where the motion leaves what the model can mean.', 'within|too_wide|too_narrow|too_wide_and_narrow'), &
+         'Where the motion leaves the range of the model.', 'within|too_wide|too_narrow|too_wide_and_narrow'), &
       quantity_t(quantity_reversals_per_period, 'reversals_per_period', '-', a_number, part_window, needs_spectrum, &
          'summary campaign', 'Turns of the acceleration that stand out from the curve, a period of the force.'), &
       quantity_t(quantity_reversals_per_second, 'reversals_per_second', '1/s', a_number, part_window, needs_spectrum, &

@@ -126,9 +126,10 @@ contains
       type(scene_input_t), intent(inout) :: input
 
       if (input%word('film.law') == 'elastohydrodynamic') then
-         call input%refuse('solver.method', 'the paper''s method is for the rigid flanks of the paper; take taylor')
+         call input%refuse('solver.method', 'the paper''s method is for the rigid flanks of the paper; set method = ''taylor''')
       else if (input%is_given('contact.stiffness') .or. input%number('gear.tooth_stiffness') > 0.0_dp) then
-         call input%refuse('solver.method', 'the paper''s method is for the rigid teeth of the paper; take taylor, or '// &
+         call input%refuse('solver.method', 'the paper''s method is for the rigid teeth of the paper; set method = ''taylor'', '// &
+                           'or '// &
                            trim(merge('leave contact.stiffness out ', 'set gear.tooth_stiffness = 0', &
                                          input%is_given('contact.stiffness'))))
       end if
@@ -410,7 +411,7 @@ contains
       end do
       if (.not. input%is_given('output.profile_phases') .or. input%is_faulty('output.profile_phases')) return
       if (input%is_given('output.profile_count')) &
-         call input%refuse('output.profile_count', 'it cannot stand beside output.profile_phases; leave one of the two out')
+         call input%refuse('output.profile_count', 'it excludes output.profile_phases; leave one of the two out')
       phases = input%numbers('output.profile_phases')
       if (any(phases(2:) <= phases(:size(phases) - 1))) &
          call input%refuse('output.profile_phases', 'each phase has to be larger than the one before')

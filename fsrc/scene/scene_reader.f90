@@ -77,7 +77,7 @@ contains
       case (2)
          call faults%add(file, 0, '', '', 'it cannot be read as a file')
       case default
-         call faults%add(file, 0, '', '', 'it is larger than '//integer_text(size_limit)//' bytes; that is no input')
+         call faults%add(file, 0, '', '', 'it is larger than '//integer_text(size_limit)//' bytes, too large for an input')
       end select
       if (stat /= 0) return
 
@@ -252,7 +252,7 @@ contains
       is_one_of_several = input%line_of_pair > 0
       name = input%word('gear.name')
       if (len(name) == 0) then
-         if (is_one_of_several) call input%refuse('gear.name', 'several &gear stand here; each needs a name')
+         if (is_one_of_several) call input%refuse('gear.name', 'there are several &gear; each needs a name')
          return
       end if
       associate (scene => scenes(size(scenes)))

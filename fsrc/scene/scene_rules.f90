@@ -48,7 +48,7 @@ contains
          holds(5) = .not. scene%oil%given .or. scene%oil%viscosity_100_cst < scene%oil%viscosity_40_cst
          rules(6) = rule_t('contact.damping_ratio', 'rigid teeth have no damping: give contact.stiffness too, or leave this out')
          holds(6) = .not. contact%damping_ratio > 0.0_dp .or. contact%stiffness > 0.0_dp
-         rules(7) = rule_t('contact.damping_ratio', "films in nodes stand on teeth that are not damped; take model = 'closure'")
+         rules(7) = rule_t('contact.damping_ratio', "films in nodes need teeth without damping; set film.model = 'closure'")
          holds(7) = .not. max(contact%damping_ratio, scene%gear%tooth_damping_ratio) > 0.0_dp .or. &
                     .not. (scene%film%automatic .or. scene%film%model == model_resolved)
          if (scene%gear%given) then

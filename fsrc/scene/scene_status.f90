@@ -33,15 +33,15 @@ contains
          sentence = 'The motion repeats; the remaining periods were not needed.'
       case (status_not_converged)
          sentence = 'No step, short as it was or often as it was iterated, met the accuracy, or too many of them would be '// &
-                    'needed; for newmark more steps help, or newton.'
+                    'needed; for newmark raise steps_per_period, or set iteration = ''newton''.'
       case (status_film_lost)
-         sentence = 'The film would reach zero however short the step; more steps_per_period help.'
+         sentence = 'The film would reach zero however short the step; raise steps_per_period.'
       case (status_no_rigid_film)
          sentence = 'The piezo-viscous film of rigid flanks ceases to exist here; the contact is elastohydrodynamic.'
       case (status_overflow)
          sentence = 'The film load exceeds every number that can be represented; the film law does not hold here.'
       case (status_interrupted)
-         sentence = 'A signal ended the run; what was computed so far was kept.'
+         sentence = 'A signal ended the run; what was computed until then is kept.'
       case (status_film_cycles)
          sentence = 'The nodes under pressure cycle however short the step; 64 nodes or more help under heavy loads, and '// &
                     'model = closure has no nodes.'
@@ -49,11 +49,11 @@ contains
          sentence = 'A cavity opens in a film again and again; 64 nodes or more help under heavy loads, and model = closure '// &
                     'has no nodes.'
       case (status_invalid)
-         sentence = 'The values are no valid scene.'
+         sentence = 'The values do not make a valid scene.'
       case (status_not_written)
          sentence = 'The time series could not be written; the disk may be full.'
       case default
-         sentence = 'The time limit ended the run; what was computed so far was kept.'
+         sentence = 'The time limit ended the run; what was computed until then is kept.'
       end select
    end function status_sentence
 

@@ -236,7 +236,7 @@ contains
          words = 'and their means go from '//short_text(minval(levels), 4)//' to '//short_text(maxval(levels), 4)// &
                  ': did the operating point drift?'
       else if (cycles == 2) then
-         words = 'and no other count can be held against it: is a cycle twice as long (signal_cycles = 1), or the signal noisy?'
+         words = 'and no other count can be compared: is a cycle twice as long (signal_cycles = 1), or the signal noisy?'
       else
          words = 'and no other count repeats better: is it noisy, or did the operating point change?'
       end if

@@ -39,7 +39,7 @@ contains
       message = ''
       if (recording%axis_unit%kind == no_axis) then
          cycles = max(1, asked)
-         basis = 'no axis tells its cycles'
+         basis = 'no axis defines its cycles'
       else
          cycles = 0
          length = cycle_length(input, group, recording%axis_unit%kind)

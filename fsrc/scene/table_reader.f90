@@ -54,7 +54,7 @@ contains
       do i = 1, size(csv%names)
          if (any(places == i)) cycle
          call input%faults%add(path, csv%header, '', '', 'column '//integer_text(i)//': its name is none of '//drag_example// &
-                               ', or stands there twice')
+                               ', or is there twice')
       end do
       if (input%faults%count() > before) return
       call check_column(path, csv, places(1), 'shaft.speed_rpm', input%faults)
@@ -72,7 +72,7 @@ contains
             i = count(table%speeds <= speeds(row))
             j = count(table%temperatures <= temperatures(row))
             if (is_known(i, j)) call input%faults%add(path, csv%lines(row), '', '', 'columns '//integer_text(places(1))//' and '// &
-                                                integer_text(places(2))//': a row with this speed and temperature stands above')
+                                                integer_text(places(2))//': an earlier row has this speed and temperature')
             is_known(i, j) = .true.
             table%torques(i, j) = csv%values(row, places(3))
          end do
@@ -192,9 +192,9 @@ contains
          call read_order(csv%names(i)%text, acceleration, order, is_unknown)
          if (is_unknown) then
             call add('its name is none of speed_rpm, acceleration_O and phase_O with an order O, such as acceleration_2, or '// &
-                     'stands there twice')
+                     'is there twice')
          else if (order_place() > 0) then
-            call add('the order stands there twice')
+            call add('this order is there twice')
          else
             orders = [orders, order]
             accelerations = [accelerations, i]
@@ -208,7 +208,7 @@ contains
          if (is_unknown .or. k == 0) then
             call add('it is a phase of an order that has no column acceleration_O')
          else if (phases(k) > 0) then
-            call add('the phase of this order stands there twice')
+            call add('the phase of this order is there twice')
          else
             phases(k) = i
          end if

@@ -91,12 +91,12 @@ contains
          case (doubt_samples)
             sentence = doubt_of_samples(counts(1), counts(2) == 1)
          case (doubt_impacts)
-            sentence = 'The motion has too few impacts, while it is followed, to tell an irregular one.'
+            sentence = 'The motion has too few impacts, while it is followed, to be called irregular.'
          case (doubt_return)
             sentence = 'Solved again, the window of one period begins with a film of '//short_text(numbers(1), 3)// &
                        ' m and ends with '//short_text(numbers(2), 3)// &
                        ' m: that solution does not repeat after it, or not yet. '// &
-                       'More of spectrum.periods would tell more.'
+                       'Raise spectrum.periods to see which.'
          case (doubt_halves)
             sentence = 'The two halves of the '//counted(doubt%parting%periods, 'period')//' that the motion was followed '// &
                        'differ by more than their errors: the rms of z" is '//short_text(numbers(1), 3)//' and '// &
@@ -122,7 +122,7 @@ contains
             sentence = 'Within their errors there are '//integer_text(counts(1))//' to '//integer_text(counts(2))//' harmonics.'
          case (doubt_flight)
             sentence = 'The film grows to '//short_text(numbers(1), 3)//' m, beyond a tenth of the radius: '// &
-                       'the film law means nothing there.'
+                       'the film law does not hold there.'
          case default
             continue
          end select
@@ -141,9 +141,9 @@ contains
       else if (parting%periods == 0) then
          sentence = 'The motion does not repeat, and it could not be followed beside a neighbouring one.'
       else if (draws_near(parting)) then
-         sentence = parting_sentence(parting)//' The motion settles; more of solver.periods would tell to what.'
+         sentence = parting_sentence(parting)//' The motion settles; raise solver.periods to see to which one.'
       else
-         sentence = parting_sentence(parting)//' That is not positive beyond its error: more of solver.periods would tell more.'
+         sentence = parting_sentence(parting)//' That is not positive beyond its error: raise solver.periods.'
       end if
    end function doubt_of_parting
 

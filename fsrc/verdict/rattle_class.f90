@@ -25,7 +25,7 @@ module rattle_class
    !> What a motion of each class sounds like, whatever the tooth does: an impact is a matter of the verdict.
    character(*), parameter, public :: sounds(6) = [character(49) :: &
       'a sound of little beside the orders of the force', 'a sound of few harmonics', 'a sound of many harmonics', &
-      'a sound that does not repeat', 'a sound that repeats after several periods', 'a sound that has not repeated so far']
+      'a sound that does not repeat', 'a sound that repeats after several periods', 'a sound that has not repeated yet']
 
    public :: classify, classify_steps, note_orbit, note_parting, note_known, is_off_harmonics
 

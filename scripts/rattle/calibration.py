@@ -159,7 +159,7 @@ class Model:
         if rows.gears:
             rows = rows.pair(self.gear)
         if np.any(rows.failed):
-            self.notes.add("Some scenes of the fit failed; they took no part in it.")
+            self.notes.add("Some scenes of the fit failed; they are left out.")
         return np.where(rows.failed, np.nan, np.array(rows[self.column], dtype=float))
 
 

@@ -81,7 +81,7 @@ def _count(group: Mapping[str, Any], key: str) -> int:
     if number is None:
         return 1
     if isinstance(number, bool) or not isinstance(number, int) or number < 1:
-        raise ValueError(f"its campaign.{key} is no positive whole number.")
+        raise ValueError(f"its campaign.{key} is not a positive whole number.")
     return number
 
 

@@ -159,7 +159,7 @@ class Campaign(ResultFile):
     def places(self) -> tuple[np.ndarray, ...]:
         """For every scene that is done, its index along each axis of the grid."""
         if self.kind != GRID:
-            raise ResultError(f"{self.path} is no grid but a {self.kind} campaign.")
+            raise ResultError(f"{self.path} is not a grid but a {self.kind} campaign.")
         return tuple(_nearest(axis.values, self[axis.key][self.done]) for axis in self.axes)
 
     def grid(self, name: str) -> np.ndarray:
@@ -257,13 +257,13 @@ def read_campaign(path: str | Path) -> Campaign:
         raise ResultError(f"{path} cannot be read: {fault.strerror or fault}.") from None
     if header.chunks.kind != CAMPAIGN:
         ResultFile(path, header).require_task("campaign")
-        raise ResultError(f"{path} is no campaign: it has no chunk table.")
+        raise ResultError(f"{path} is not a campaign: it has no chunk table.")
     try:
         plan = read_plan(header.input_text)
     except ValueError as fault:
-        raise ResultError(f"{path} is no campaign: {fault}") from None
+        raise ResultError(f"{path} is not a campaign: {fault}") from None
     if header.names[0] != SCENE or not any(is_varied(name) for name in header.names):
-        raise ResultError(f"{path} is no campaign: its columns are not a scene and the varied keys.")
+        raise ResultError(f"{path} is not a campaign: its columns are not a scene and the varied keys.")
     _check_rows(path, header, data_bytes)
     held = min(data_bytes // header.row_bytes, header.chunks.row_limit)
     return Campaign(path, header, map_rows(path, header, held), plan)

@@ -54,9 +54,9 @@ def read_encoders(path: Path) -> dict[str, Any]:
     try:
         recorded = json.loads(path.read_text(encoding="utf-8"))
     except ValueError as fault:
-        raise CommandError(f"{path} is no file of 'recording.py encoders': {fault}.") from None
+        raise CommandError(f"{path} is not a file of 'recording.py encoders': {fault}.") from None
     if not isinstance(recorded, dict) or recorded.get("form") != FORM:
-        raise CommandError(f"{path} is no file of 'recording.py encoders': its form is not '{FORM}'.")
+        raise CommandError(f"{path} is not a file of 'recording.py encoders': its form is not '{FORM}'.")
     return recorded
 
 
@@ -96,7 +96,7 @@ def fit_encoders(input: Path, recorded: Mapping[str, Any], gear: str | None = No
         if abs(longer) < CLOSE * _width(play) and abs(more) < CLOSE * _width(ratio):
             break
     else:
-        notes.append(f"The fit moves on after {ROUNDS} rounds: the computed motion is not regular.")
+        notes.append(f"The fit has not converged after {ROUNDS} rounds: the computed motion is not regular.")
     # Both the measured and the computed motion are known to an interval.
     half_play = 0.5 * math.hypot(_width(play), _width(asdict(seen.play)))
     half = 0.5 * math.hypot(_width(ratio), _width(asdict(seen.deceleration)) / lever)
@@ -104,7 +104,7 @@ def fit_encoders(input: Path, recorded: Mapping[str, Any], gear: str | None = No
     notes += [
         f"Drag over inertia is {per_inertia:.4g} 1/s2; flights give this ratio alone. {drag} is that of "
         f"{INERTIA} = {inertia:.4g} of the input.",
-        f"Were the drag of the input right, {torque:.4g} N m, {INERTIA} would be {torque / per_inertia:.4g}, "
+        f"If the input's drag is right, {torque:.4g} N m, {INERTIA} would be {torque / per_inertia:.4g}, "
         f"{torque / (per_inertia + half):.4g} to {torque / max(per_inertia - half, 1e-300):.4g} kg m2.",
     ]
     fitted = (

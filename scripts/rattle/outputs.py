@@ -43,7 +43,7 @@ def check(paths: Iterable[Path], *, overwrite: bool, inputs: Iterable[Path] = ()
             raise CommandError(f"{path} is a result itself; give another --output.")
         # A link is replaced, not followed; one to a device would take the name of the device away.
         if not (stat.S_ISREG(kind) or (stat.S_ISLNK(kind) and (path.is_file() or not path.exists()))):
-            raise CommandError(f"{path} is no plain file; give another --output.")
+            raise CommandError(f"{path} is not a plain file; give another --output.")
         if not overwrite:
             raise CommandError(f"{path} exists; --overwrite replaces it.")
 
@@ -92,7 +92,7 @@ def _check_folder(folder: Path) -> None:
     while not os.path.lexists(there) and there != there.parent:
         there = there.parent
     if not there.is_dir():
-        raise CommandError(f"{there} is no folder.")
+        raise CommandError(f"{there} is not a folder.")
     if not os.access(there, os.W_OK | os.X_OK):
         raise CommandError(f"{there} may not be written to.")
 

@@ -203,7 +203,7 @@ class Result(ResultFile):
 
     @property
     def is_irregular(self) -> bool:
-        """Whether the summary beside it says that neighbouring motions part for good."""
+        """Whether the summary beside it says that neighbouring motions diverge."""
         return (
             self.summary_path.exists() and read_summary(self.summary_path).get("rattle_class") == "irregular"
         )

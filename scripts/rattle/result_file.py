@@ -140,7 +140,7 @@ class ResultFile(ColumnMapping):
         """Raise ResultError, with the command that draws this result, if it is that of another task."""
         if self.task != task:
             drawn_by = f"; 'plot.py {self.task}' draws it" if self.task in DRAWN else ""
-            raise ResultError(f"{self.path} is no {task} but the result of task = '{self.task}'{drawn_by}.")
+            raise ResultError(f"{self.path} is not a {task} but the result of task = '{self.task}'{drawn_by}.")
 
 
 class CheckedRows:

@@ -145,7 +145,9 @@ def _ranges(campaign: f90nml.Namelist, path: Path) -> tuple[list[str], list[floa
     logarithmic = np.array([str(scale).strip() == LOGARITHMIC for scale in lists["scale"]])
     for key, low, high, is_log in zip(keys, lists["first"], lists["last"], logarithmic, strict=True):
         if not low < high or (is_log and low <= 0.0):
-            raise CommandError(f"{path}: {key} goes from {low:g} to {high:g}, which is no range to sample.")
+            raise CommandError(
+                f"{path}: {key} goes from {low:g} to {high:g}, which is not a range to sample."
+            )
     return keys, lists["first"], lists["last"], logarithmic
 
 
@@ -219,7 +221,7 @@ def _blocks(points: np.ndarray, campaign: Campaign) -> np.ndarray:
     """The points by blocks: one of a first sample, each key of it from a second in turn, the second."""
     size = points.shape[1] + 2
     fault = CommandError(
-        f"{campaign.path} is no campaign over a design or a sample: 'sensitivity.py design' writes one."
+        f"{campaign.path} is not a campaign over a design or a sample: 'sensitivity.py design' writes one."
     )
     if len(points) == 0 or len(points) % size:
         raise fault

@@ -319,7 +319,7 @@ def literal(value: Any) -> str:
     # Bytes would come as their numbers, a mapping as its keys, a set in no order.
     if isinstance(value, Iterable) and not isinstance(value, NO_LISTS):
         return ", ".join(map(literal, value))
-    raise TypeError(f"{value!r} is nothing that an input can hold")
+    raise TypeError(f"{value!r} is not a value that an input can have")
 
 
 def _outcome(ended: subprocess.CompletedProcess[str]) -> Solved | Gearbox:

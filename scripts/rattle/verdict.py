@@ -58,7 +58,7 @@ def judge_samples(
             **forced(result),
             **limits,
         )
-        # Samples alone do not show whether neighbouring motions part for good; the program has followed them.
+        # Samples alone do not show whether neighbouring motions diverge; the program has followed them.
         if found["rattle_class"] == "irregular_so_far" and result.is_irregular:
             found["rattle_class"] = "irregular"
         return found

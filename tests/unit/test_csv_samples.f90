@@ -170,7 +170,7 @@ contains
       call refuse_text(checks, 'scene.name'//row, 'not a number, so it cannot be varied')
       call refuse_text(checks, 'output.stride'//row, 'does not describe the motion')
       call refuse_text(checks, 'load.mass,Load.Mass'//line_feed//'1,2'//line_feed, &
-                       "column 2: 'Load.Mass': this key stands in column 1 already")
+                       "column 2: 'Load.Mass': this key is already in column 1")
       call refuse_text(checks, 'load.mass,'//line_feed//'1,2'//line_feed, &
                        'column 2: a key must be named here')
       call refuse_text(checks, '# a comment'//line_feed//'load.mass'//row, 'comments are not allowed')
@@ -181,7 +181,7 @@ contains
       call refuse_text(checks, 'load.mass_mm'//row, ":1: column 1: 'load.mass_mm': it is in mm; kg is needed")
       call refuse_text(checks, 'load.mass [stone]'//row, 'its unit is not known; kg is needed')
       call refuse_text(checks, 'load.mass'//achar(9)//'load.frequency'//row, 'tabs separate the columns')
-      call refuse_text(checks, 'shaft.speed_rpm,shaft.speed_rpm [Hz]'//row, 'this key stands in column 1 already')
+      call refuse_text(checks, 'shaft.speed_rpm,shaft.speed_rpm [Hz]'//row, 'this key is already in column 1')
       call refuse_text(checks, 'load.mass'//line_feed//'g'//line_feed, ':2: there is no line of numbers')
    end subroutine test_headers
 

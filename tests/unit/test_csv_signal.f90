@@ -100,8 +100,8 @@ contains
       call refuse(checks, '', '', 'the file is empty')
       call refuse(checks, lines('# nothing', '', '# else'), '', 'the file is empty')
       call refuse(checks, lines('force', '1', '2', '3'), '', 'it has 3 samples; a cycle needs at least 4')
-      call refuse(checks, lines('force', '1', 'two', '3', '1'), '', ":3: column 1: no number stands here")
-      call refuse(checks, lines('force', '1', 'nan', '3', '1'), '', ":3: column 1: no number stands here")
+      call refuse(checks, lines('force', '1', 'two', '3', '1'), '', ":3: column 1: this is not a number")
+      call refuse(checks, lines('force', '1', 'nan', '3', '1'), '', ":3: column 1: this is not a number")
       call refuse(checks, lines('time,force', '0,1', '1,', '2,3', '3,1'), '', ":3: column 2: a number is missing")
       call refuse(checks, lines('time,force', '0,1', '1,3', '2', '3,1'), '', ':4: the line has 1 columns, the header 2')
       call refuse(checks, lines('time,force', '0,1', '1,3', '2,2', '4,0'), '', ':5: the samples are not uniform (or the axis')
@@ -113,7 +113,7 @@ contains
       type(check_list_t), intent(inout) :: checks
       character(*), parameter :: tab = achar(9), decimal_comma = ': decimal commas are read only where semicolons'
 
-      call refuse(checks, lines('root:x:0', 'daemon:x:1'), '', ':2: column 1: no number stands here')
+      call refuse(checks, lines('root:x:0', 'daemon:x:1'), '', ':2: column 1: this is not a number')
       call refuse(checks, lines('user,word', 'bob,secret', 'eve,more'), 'c', &
                   ":1: there is no column 'c'; its columns are which are not known")
       call refuse(checks, lines('user,word', 'bob,secret'), '', &
@@ -127,12 +127,12 @@ contains
       call refuse(checks, lines('time,force', '"0,0","1,5"', '"1,0","2,5"', '"2,0","1,5"'), '', decimal_comma)
       call refuse(checks, lines('force', '0,017', '1,5', '2,5', '3,5'), '', decimal_comma)
       call refuse(checks, lines('time,force', 'old,new', '0,1', '1,3', '2,1', '3,0'), 'force', &
-                  ':2: column 2: no number stands here; below the names')
+                  ':2: column 2: this is not a number; below the names')
       call refuse(checks, lines('time,force', 's,N', 's,N', '0,1', '1,3', '2,1', '3,0'), 'force', ':3: column 2: no number')
       call refuse(checks, lines('time;force', '0;1,5', '1;3', '2;2.5', '3;0'), '', ':4: some numbers have a decimal point')
-      call refuse(checks, lines('time;force', '0;1.234,5', '1;3', '2;2', '3;0'), '', ':2: column 2: no number stands here')
+      call refuse(checks, lines('time;force', '0;1.234,5', '1;3', '2;2', '3;0'), '', ':2: column 2: this is not a number')
       call refuse(checks, 'force'//achar(13)//'1'//achar(13)//'2', '', ':1: carriage returns alone')
-      call refuse(checks, 'f'//achar(0)//'o'//achar(0), '', ':1: it is no plain text')
+      call refuse(checks, 'f'//achar(0)//'o'//achar(0), '', ':1: it is not plain text')
       call refuse(checks, lines('time,force', '0,1', '1,3', '2,2', '1,0'), '', ':5: the axis descends: after 2.0')
       call refuse(checks, lines('time,force', '0,1', '1e31,3', '2e31,2', '3e31,0'), '', 'that is no axis')
       call accept(checks, lines('"force; left","t"', '1,0', '3,1', '2,2', '0,3'), 'a semicolon in a name')

@@ -154,7 +154,7 @@ contains
       call expect('Laod'//end_of_line//'&g k=1 /', 1, 1, 'f:1: text outside', 'no sign, misspelt, alone on its line')
       call expect('&g k=1 / load ! the next'//end_of_line, 1, 1, 'f:1: text outside', 'no sign, behind a group')
       call expect('&'//end_of_line//'&g k=1 /', 1, 1, 'f:1: a group name must follow', 'group without a name')
-      call expect('&g k=1 /'//end_of_line//'&g m=2 /', 1, 2, 'f:2: &g: this group stands in line 1', &
+      call expect('&g k=1 /'//end_of_line//'&g m=2 /', 1, 2, 'f:2: &g: this group is already in line 1', &
          'group twice')
       call expect('&g k=1'//end_of_line//'&h m=2 /', 1, 2, 'f:1: &g: this group is not closed', 'open group')
       call expect('&g k=1', 1, 1, 'f:1: &g: this group is not closed', 'open at the end')

@@ -144,7 +144,7 @@ def test_a_campaign_that_is_no_grid_is_drawn_as_dots(tmp_path, made):
     assert len(stems(tmp_path / "out")) == 3
     refused = draw(path, "--slice", f"{FORCE}=1")
     assert refused.returncode == 2
-    assert "is no grid" in refused.stderr
+    assert "is not a grid" in refused.stderr
 
 
 @pytest.mark.parametrize("last", [(400.0, 5.0), (400.0, 0.5), (20.0, 5.0)], ids=["both", "force", "speed"])

@@ -161,7 +161,7 @@ def test_dataset_of_a_sample_is_one_dimensional(tmp_path):
     data = campaign.dataset()
     assert dict(data.sizes) == {"scene": 300}
     assert set(data.coords) == {"scene", FORCE, SPEED}
-    with pytest.raises(rattle.ResultError, match="is no grid but a sample campaign"):
+    with pytest.raises(rattle.ResultError, match="is not a grid but a sample campaign"):
         campaign.grid("rattle_class")
 
 
@@ -251,11 +251,11 @@ DAMAGE = [
     (lambda c, _: resealed(c.replace(b"part = 1", b"part = 2")), "its part 2 is none of 1"),
     (
         lambda c, _: resealed(c.replace(b"parts = 1", b"parts=1,1")),
-        "its campaign.parts is no positive whole number",
+        "its campaign.parts is not a positive whole number",
     ),
     (
         lambda c, _: resealed(c.replace(b"parts = 1", b"parts = 0")),
-        "its campaign.parts is no positive whole number",
+        "its campaign.parts is not a positive whole number",
     ),
     (
         lambda c, _: resealed(c.replace(b"count(1) = 20", b"count(1) = 19")),
@@ -293,7 +293,7 @@ def test_every_cut_is_refused_or_read(tmp_path):
 def test_a_time_series_is_no_campaign(tmp_path):
     path = write_motion(tmp_path / "idle.rattle", lines={1.0: 1.0})
     with pytest.raises(
-        rattle.ResultError, match="is no campaign but the result of task = 'motion'; 'plot.py motion'"
+        rattle.ResultError, match="is not a campaign but the result of task = 'motion'; 'plot.py motion'"
     ):
         rattle.read_campaign(path)
     with pytest.raises(rattle.ResultError, match="No such file"):

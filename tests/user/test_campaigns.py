@@ -433,7 +433,7 @@ def test_override_of_one_element_keeps_the_others(run, scene_text, tmp_path: Pat
 
 def test_invalid_scenes_are_named_with_key_and_place(refused, scene_text, tmp_path: Path) -> None:
     (tmp_path / "scene.nml").write_text(grid(scene_text, 2, 1, campaign={"first": "-5.0, 1.0"}))
-    name = "scene.nml: &campaign: scene 1 is no valid scene: load.force_amplitude: -5.0 is not allowed"
+    name = "scene.nml: &campaign: scene 1 is not valid: load.force_amplitude: -5.0 is not allowed"
     faults = refused("scene.nml", "--set", "campaign.count=2,2")
     assert faults[0].startswith(name) and len(faults) == 2
     (tmp_path / "table.csv").write_text("load.mass,load.steady_force\n3,10\n-3,10\n1,-50\n")

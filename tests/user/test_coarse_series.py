@@ -242,7 +242,7 @@ def test_campaigns_and_sweeps_count_what_the_model_cannot_mean(run, scene_text, 
     beyond = int((result["model_limit"] > 0).sum())
     assert result["model_limit"][0] == 3 and beyond >= 1
     scenes = "1 scene" if beyond == 1 else f"{beyond} scenes"
-    assert f"warning: {scenes} beyond what the model can mean" in reported.stdout
+    assert f"warning: {scenes} outside the range of the model" in reported.stdout
     assert (result["sampling_sufficient"] == 1).all() and "not resolved" not in reported.stdout
     # The true class and first harmonic of the impact, by an independent solver.
     assert result["rattle_class"][0] == 3 and result["harmonic_1"][0] == pytest.approx(290.75366, rel=1e-6)
@@ -252,7 +252,7 @@ def test_campaigns_and_sweeps_count_what_the_model_cannot_mean(run, scene_text, 
     (tmp_path / "sweep.nml").write_text(text)
     reported = run("sweep.nml", cwd=tmp_path)
     assert reported.returncode == 0, reported.stdout + reported.stderr
-    assert "motions beyond what the model can mean" in reported.stdout
+    assert "motions outside the range of the model" in reported.stdout
     swept = package.read(tmp_path / "results" / "sweep.rattle")
     assert swept["acceleration_maximum"][0] == pytest.approx(9.082065e10, rel=1e-6)
 
@@ -268,5 +268,5 @@ def test_a_film_that_grows_too_wide_and_never_too_thin_counts(run, scene_text, t
     swept = package.read(tmp_path / "results" / "sweep.rattle")
     wide = swept["film_maximum"] > 0.1 * 0.0127
     assert (swept["film_minimum"] > 1e-9).all() and 0 < wide.sum() < wide.size
-    assert f"warning: {counted(int(wide.sum()), 'motion')} beyond what the model can mean" in reported.stdout
+    assert f"warning: {counted(int(wide.sum()), 'motion')} outside the range of the model" in reported.stdout
     assert summary_of(tmp_path / "results" / "sweep.summary.nml")["motions_failed"] == 0

@@ -280,7 +280,7 @@ def test_a_start_that_flies_off_is_not_verified(run, scene_text, tmp_path: Path)
     reported = summary_of(tmp_path / "results" / "scene.summary.nml")
     assert reported["film_maximum"] > 1.0 and reported["model_limit"] == "too_wide"
     assert reported["verification"] == "uncertain"
-    assert "beyond a tenth of the radius: the film law means nothing there." in reported["verification_text"]
+    assert "beyond a tenth of the radius: the film law does not hold there." in reported["verification_text"]
     rows = {
         "vary": "'film.initial_velocity'",
         "values(:, 1)": "0.0, 100.0",

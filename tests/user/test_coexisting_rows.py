@@ -151,7 +151,7 @@ def test_log_and_summary_tell_of_several_motions(run, folder: Path) -> None:
     path = solve(run, folder, *FEW)
     several = int((package.read(path)["motions"] > 1.0).sum())
     last = path.with_suffix(".log").read_text().splitlines()[-1].strip()
-    absence = "are no proof of others' absence"
+    absence = "do not prove that there are no others"
     assert last == f"{several} of 45 scenes have several motions; 3 starts and neighbours {absence}"
     assert summary_of(path.with_suffix(".summary.nml"))["scenes_with_several_motions_in_this_run"] == several
     path = solve(run, folder, *FEW, "--set", "campaign.neighbours=F", "--set", "solver.starts=5", name="five")

@@ -174,7 +174,7 @@ def test_tables_in_other_units(call, tmp_path: Path) -> None:
             "drag.csv:6: columns 1 and 2: a row with this speed and temp",
         ),
         (DRAG_HEAD, DRAG_ROWS[:3], "drag.csv: the grid has a hole: there is no row with speed_rpm 1000.0"),
-        (DRAG_HEAD, ["600,20,nan", *DRAG_ROWS[1:]], "drag.csv:2: column 3: no number stands here"),
+        (DRAG_HEAD, ["600,20,nan", *DRAG_ROWS[1:]], "drag.csv:2: column 3: this is not a number"),
         (DRAG_HEAD, [DRAG_ROWS[0], "600,60,", *DRAG_ROWS[2:]], "drag.csv:3: column 3: a number is missing"),
         (DRAG_HEAD, [DRAG_ROWS[0], "600,60,inf", *DRAG_ROWS[2:]], "drag.csv:3: column 3: no number stands"),
         (
@@ -237,7 +237,7 @@ def test_bad_drag_tables_are_refused(head: str, rows: list[str], words: str, cal
         (
             "speed_rpm,acceleration_2,acceleration_2.0",
             ["600,1,1", "700,2,2"],
-            "column 3: the order stands there",
+            "column 3: this order is there",
         ),
         (
             "speed_rpm,acceleration_2,phase_4",
@@ -268,7 +268,7 @@ def test_bad_drag_tables_are_refused(head: str, rows: list[str], words: str, cal
         (
             RUN_UP_HEAD,
             [RUN_UP_ROWS[0], "1000,600,NaN,100,-3"],
-            "run_up.csv:3: column 3: no number stands here",
+            "run_up.csv:3: column 3: this is not a number",
         ),
         (RUN_UP_HEAD, [RUN_UP_ROWS[0], "1000,600,,100,-3"], "run_up.csv:3: column 3: a number is missing"),
         (RUN_UP_HEAD.replace(",", ";"), RUN_UP_ROWS, "run_up.csv:2: the line has 1 columns, the header 5"),
@@ -293,13 +293,13 @@ def test_bad_run_ups_are_refused(head: str, rows: list[str], words: str, call, t
 @pytest.mark.parametrize(
     ("settings", "words"),
     [
-        (("gear.drag_torque=.1",), "&gear drag_torque: it cannot stand beside gear.bearing_mean_diameter"),
-        (("gear.drag_table='drag.csv'",), "&gear drag_table: it cannot stand beside gear.bearing_mean_diam"),
+        (("gear.drag_torque=.1",), "&gear drag_torque: it excludes gear.bearing_mean_diameter"),
+        (("gear.drag_table='drag.csv'",), "&gear drag_table: it excludes gear.bearing_mean_diam"),
         (("gear.bearing_width=.02",), "&gear bearing_width: give both bearing_width and bearing_clearance"),
         (("gear.bearing_clearance=3e-5",), "&gear bearing_clearance: give both bearing_width and bearing_cl"),
         (
             ("gear.bearing_width=.02", "gear.bearing_clearance=3e-5", "gear.bearing_factor=12"),
-            "&gear bearing_factor: it cannot stand beside gear.bearing_width",
+            "&gear bearing_factor: it excludes gear.bearing_width",
         ),
         (
             ("gear.synchroniser_cones=0",),
@@ -315,10 +315,10 @@ def test_bad_run_ups_are_refused(head: str, rows: list[str], words: str, call, t
         (("gear.tip_diameter_1=0.048",), "&gear tip_diameter_1: give both tip_diameter_1 and tip_diameter_2"),
         (
             ("gear.tip_diameter_1=0.048", "gear.tip_diameter_2=0.097", "gear.contact_lines=1.3"),
-            "&gear contact_lines: it cannot stand beside gear.tip_diameter_1",
+            "&gear contact_lines: it excludes gear.tip_diameter_1",
         ),
         (("gear.tip_diameter_1=0.071", "gear.tip_diameter_2=0.097"), "&gear tip_diameter_1: tips interfere"),
-        (("shaft.table='run_up.csv'",), "&shaft orders: it cannot stand beside shaft.table"),
+        (("shaft.table='run_up.csv'",), "&shaft orders: it excludes shaft.table"),
     ],
 )
 def test_keys_that_do_not_fit_together(settings: tuple[str, ...], words: str, call) -> None:

@@ -226,7 +226,7 @@ def test_two_keys_are_curves_if_few_and_a_surface_if_many(tmp_path):
     [
         (["--slice", "load.force=1"], "does not vary 'load.force'"),
         (["--slice", "kinematics.entrainment_speed=1"], "one has to stay free"),
-        (["--map", "edge.rattle"], "is no campaign but the result of task = 'threshold'"),
+        (["--map", "edge.rattle"], "is not a campaign but the result of task = 'threshold'"),
     ],
 )
 def test_what_cannot_be_drawn_is_reported(options, words, tmp_path):

@@ -230,7 +230,7 @@ def test_the_table_of_another_gearbox_is_kept(run, tmp_path: Path) -> None:
     (tmp_path / "box.nml").write_text(GEARBOX.replace("'4th'", "'5th'"))
     ended = run("--resume", "box.nml", cwd=tmp_path)
     assert ended.returncode == 2
-    assert "box.summary.nml belongs to another gearbox: it tells of the gear '4th', which is not set now" in (
+    assert "box.summary.nml belongs to another gearbox: it has the gear '4th', which this input has not" in (
         ended.stderr
     )
     assert contents(tmp_path / "results") == before

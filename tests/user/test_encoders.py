@@ -325,7 +325,7 @@ def test_a_campaign_is_no_input_of_a_motion(measured: Path) -> None:
 
 
 def test_other_files_are_not_calibrated(measured: Path) -> None:
-    for text, words in (("{", "is no file of"), ('{"form": "x"}', "its form is not")):
+    for text, words in (("{", "is not a file of"), ('{"form": "x"}', "its form is not")):
         (measured / "other.json").write_text(text)
         code, _, complained = called_here("calibrate.py", "bench.nml", "other.json", cwd=measured)
         assert code == 2 and words in complained and "Traceback" not in complained

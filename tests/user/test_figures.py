@@ -143,7 +143,7 @@ def test_an_output_place_that_cannot_be_written_is_named(iso, tmp_path):
     (tmp_path / "taken").write_text("a file, not a directory")
     done = call_script("plot.py", "motion", iso, "--figures", "8", "--output", tmp_path / "taken")
     assert done.returncode == 2
-    assert "taken is no folder" in done.stderr
+    assert "taken is not a folder" in done.stderr
 
 
 def test_a_motion_at_rest_is_drawn(tmp_path):
@@ -173,7 +173,7 @@ def test_the_result_of_another_task_is_refused_with_the_script_that_draws_it(scr
 def test_a_result_in_place_of_the_command_is_answered_with_the_command(iso):
     done = call_script("plot.py", iso)
     assert done.returncode == 2
-    assert done.stderr == f"plot.py: {iso} is no command; 'plot.py motion {iso}' draws it.\n"
+    assert done.stderr == f"plot.py: {iso} is not a command; 'plot.py motion {iso}' draws it.\n"
 
 
 @pytest.mark.parametrize(

@@ -129,11 +129,11 @@ def test_devices_folders_and_results_keep_their_names(motion, tmp_path):
     (tmp_path / "folder").mkdir()
     (tmp_path / "alias.csv").hardlink_to(motion)
     for name, words in (
-        ("pipe", "is no plain file"),
-        ("device", "is no plain file"),
+        ("pipe", "is not a plain file"),
+        ("device", "is not a plain file"),
         ("folder", "is a folder"),
         ("alias.csv", "is a result itself"),
-        ("idle.rattle/x.csv", "is no folder"),
+        ("idle.rattle/x.csv", "is not a folder"),
     ):
         arguments = (motion, "--output", name, "--overwrite")
         code, _, complaint = called_here("export.py", *arguments, cwd=tmp_path)

@@ -199,7 +199,7 @@ def test_every_fault_of_a_file_is_reported_with_its_line(refused, folder: Path) 
         refused("scene.nml"),
         "cycle.csv",
         [
-            "5: column 2: no number stands here",
+            "5: column 2: this is not a number",
             "8: the line has 1 columns, the header 2",
         ],
     )

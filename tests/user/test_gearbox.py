@@ -358,7 +358,7 @@ def test_every_fault_of_every_gear_is_reported(run, tmp_path: Path) -> None:
             "2: &gear teth_2: unknown key; the nearest known key is teeth_2",
             "6: &gear normal_module: -1.0 is not allowed",
             "6: &gear name: '1ST' is also the name of an earlier &gear",
-            "9: &gear name: several &gear stand here; each needs a name",
+            "9: &gear name: there are several &gear; each needs a name",
             "11: &gear drag_torque: without a backlash the drag torque must be positive",
             "18: &spectra: unknown group",
         ],

@@ -95,7 +95,7 @@ def test_pairs_that_are_taken_away_are_missed(begun, run, shim: Path, tmp_path: 
 def test_a_log_that_is_taken_away_is_missed(begun, shim: Path, scene_text, tmp_path: Path) -> None:
     ended = begun(scene_text(), shim, "fsync scene.state.new", (tmp_path / "results" / "scene.log").unlink)
     assert ended.returncode == 3
-    assert "results/scene.log could not be written" in ended.stderr and "taken away" in ended.stderr
+    assert "results/scene.log could not be written" in ended.stderr and "the file removed" in ended.stderr
 
 
 # --- links -----------------------------------------------------------------------------------------------
@@ -223,7 +223,7 @@ def test_every_task_warns_where_there_are_no_locks(
     )
     assert ended.returncode == 0, ended.stderr
     words = (
-        "  warning: this file system knows no locks (No locks available); see that no other run writes here\n"
+        "  warning: this file system has no locks (No locks available); see that no other run writes here\n"
     )
     assert words in ended.stdout
     assert words in (tmp_path / "results" / "scene.log").read_text()

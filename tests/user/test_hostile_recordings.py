@@ -102,7 +102,7 @@ CASES: dict[str, tuple[bytes, tuple[str, ...], str]] = {
     "torque without radius": (text("time_s,x [N m]", TIME, SPEED), (), "--radius"),
     "no time, no angle": (text("speed_rpm", SPEED), (), "--rate"),
     "no time, no speed": (text("angle_deg,force_N", 720.0 * TIME, FORCE), (), "--speed-near"),
-    "wrong channel as tacho": (BOTH, ("--tacho", "force_N"), "so it is no tacho"),
+    "wrong channel as tacho": (BOTH, ("--tacho", "force_N"), "so it is not a tacho"),
     "noise as tacho": (text("time_s,volts,force_N", TIME, NOISE, FORCE), TACHO, ""),
     "constant tacho": (text("time_s,volts,force_N", TIME, 0.0 * TIME, FORCE), TACHO, "has no pulses"),
     "no gap in the wheel": (

@@ -118,8 +118,8 @@ def lines_of_window(summary: Mapping[str, Any], given: Mapping[str, Any]) -> lis
         f"{short(summary['acceleration_maximum'], 5)} m/s2{relative}",
         spectrum_words(summary, verification),
         "  The motion does not repeat within its window of "
-        f"{counted(given['spectrum']['periods'], 'period')}: other windows have other numbers; more of "
-        "spectrum.periods steadies them."
+        f"{counted(given['spectrum']['periods'], 'period')}: other windows have other numbers; raise "
+        "spectrum.periods for steadier ones."
         if summary["rattle_class"].startswith("irregular")
         and summary["sampling_sufficient"]
         and "followed_periods" not in summary
@@ -170,7 +170,7 @@ SOUNDS = {
     "idle": "a sound of many harmonics",
     "irregular": "a sound that does not repeat",
     "subharmonic": "a sound that repeats after several periods",
-    "irregular_so_far": "a sound that has not repeated so far",
+    "irregular_so_far": "a sound that has not repeated yet",
 }
 
 
@@ -184,7 +184,7 @@ def class_words(summary: Mapping[str, Any]) -> str:
 
 def spectrum_words(summary: Mapping[str, Any], verification: str) -> str:
     if "harmonic_distortion" not in summary:
-        return f"  no motion but rounding: {class_words(summary)}"
+        return f"  no motion above rounding: {class_words(summary)}"
     bound = "at least " if summary["harmonic_count_is_bound"] else ""
     share = "at least " if summary["harmonic_distortion_is_bound"] else ""
     start = ", from rest" if summary["motions"] > 1 else ""
@@ -471,8 +471,8 @@ def test_the_log_of_a_sweep_is_its_rows(solve, scene_text, key, first, last, fai
     beyond = int((result["model_limit"] > 0).sum()) if "model_limit" in result else None
     assert (summary["motions"], summary["motions_failed"]) == (result.row_count, failed)
     warning = (
-        f"  warning: {ANY if beyond is None else beyond} motions beyond what the model can mean: films "
-        "beyond a tenth of the radius or below 1 nm (column model_limit)"
+        f"  warning: {ANY if beyond is None else beyond} motions outside the range of the model: films "
+        "above a tenth of the radius or below 1 nm (column model_limit)"
     )
     found = log_of(path)
     assert_reported(
@@ -530,7 +530,7 @@ def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, change
         [
             f"rattle {rattle.version}, campaign {name}: {count} scenes, {law}; 1 rank of 2 threads",
             f"  {count} of {count} scenes, {ANY} a second, {failed} failed, {doubts} not verified",
-            f"  warning: {counted(beyond, 'scene')} beyond what the model can mean: films beyond a tenth of "
+            f"  warning: {counted(beyond, 'scene')} outside the range of the model: films above a tenth of "
             "the radius or below 1 nm (column model_limit)"
             if beyond
             else None,
@@ -540,12 +540,12 @@ def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, change
             else None,
             f"  {doubts} of {tested} scenes not verified: solved again, tighter, the class is another "
             "or close to a limit (column verified)",
-            f"  {counted(irregular, 'scene')} irregular: their numbers are those of 100 periods and more, "
+            f"  {counted(irregular, 'scene')} irregular: their numbers are those of 100 periods or more, "
             "with standard errors (rattle_class, acceleration_rms_error)"
             if irregular
             else None,
-            f"  {counted(open_ended, 'scene')} irregular so far: without repetition, and no neighbouring "
-            "motion parts for good (rattle_class)"
+            f"  {counted(open_ended, 'scene')} irregular so far: no repetition, and no Lyapunov exponent "
+            "that is surely positive (rattle_class)"
             if open_ended
             else None,
             f"  the longest: scene {ANY}, {ANY} steps",
@@ -596,21 +596,21 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
             f"{summary['scenes_failed']} failed",
             f"  {counted(summary['crossings'], 'crossing')}; {without} of {counted(lines, 'trace')} without "
             f"any; at {counted(doubts, 'crossing')} a side is not verified",
-            f"  the ends of {counted(wide, 'crossing')} are verified only farther apart than asked for: the "
-            "width tells how sure that is (column width)"
+            f"  the ends of {counted(wide, 'crossing')} are verified only farther apart than requested: "
+            "column width has the distance"
             if wide
             else None,
             f"  at {summary['crossings_either']} of {counted(followed, 'crossing')} either side is possible: "
             "motions go on beyond the change from rest (columns last_below, last_above)",
-            f"  at {counted(unsure, 'crossing')} an end is that of a motion that does not repeat, to "
-            "the width of a bracket, or it was lost (columns motion_end_below, motion_end_above)"
+            f"  at {counted(unsure, 'crossing')} an end is that of a motion that does not repeat, "
+            "known to the width of a bracket, or is unknown (columns motion_end_below, motion_end_above)"
             if unsure
             else None,
             f"  {others} of {counted(without, 'trace')} without any have motions of another side beside "
             "those from rest, found from other starts: from last_above to last_below"
             if others
             else None,
-            f"  {counted(starts, 'start')} are no proof of others' absence",
+            f"  {counted(starts, 'start')} do not prove that there are no others",
             f"  {summary['scenes']} scenes; a grid as fine has {int(grid)}, "
             f"{short(grid / summary['scenes'], 3)} times as many",
             *files(path),

@@ -233,7 +233,7 @@ def sentences_on_motion(summary: Reported, given: Mapping[str, Any]) -> tuple[li
     limits = given["spectrum"]
     count = summary["harmonic_count"]
     bound = "at least " if summary.get("harmonic_count_is_bound") else ""
-    lines = f"{bound}{count} {'harmonic' if count == 1 else 'harmonics'} of the acceleration stand above"
+    lines = f"{bound}{count} {'harmonic' if count == 1 else 'harmonics'} of the acceleration are above"
     of = "the largest one of the force's own harmonics" if "force_orders" in given["load"] else "the first"
     threshold = f"{100.0 * limits['harmonic_threshold']:g} % of {of}"
     classes = {
@@ -682,7 +682,7 @@ def sentences_on_campaign(
             count = int((columns["film_regime"] == code).sum())
             found.append(f"{codes.CODES['film_regime'][code]} in {count}")
     for name, words in (
-        ("model_limit", "scenes the film leaves what the model can mean: below 1 nm, or beyond a tenth of"),
+        ("model_limit", "scenes the film leaves the range of the model: below 1 nm, or above a tenth of"),
         ("stiffness_matters", "scenes the teeth deflect, or if they are rigid those of steel would"),
         ("double_sided", "scenes the tooth hits both flanks of its gap."),
     ):

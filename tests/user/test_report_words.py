@@ -56,7 +56,7 @@ def test_every_sentence_on_a_campaign_counts_its_rows(counted) -> None:
         "or both halves of an irregular motion agree. "
         "3 of 9 scenes are not verified.",
         "In 7 scenes the film law is not the one of the regime that the motion reaches.",
-        "In 5 scenes the film leaves what the model can mean: below 1 nm, or beyond a tenth of the radius.",
+        "In 5 scenes the film leaves the range of the model: below 1 nm, or above a tenth of the radius.",
         "In 4 scenes the teeth deflect, or if they are rigid those of steel would, by more than a tenth of "
         "the film: rigid teeth are no fair assumption there.",
         "In 3 scenes the tooth hits both flanks of its gap.",
@@ -114,8 +114,8 @@ def test_a_share_of_a_line_is_reported_in_per_cent(solved) -> None:
         / "calm.rattle"
     )
     for word, words in (
-        ("creep", "17 harmonics of the acceleration stand above 3.5 % of the first, fewer than the 9 from"),
-        ("idle", "17 harmonics of the acceleration stand above 3.5 % of the first; 9 or more make it idle"),
+        ("creep", "17 harmonics of the acceleration are above 3.5 % of the first, fewer than the 9 from"),
+        ("idle", "17 harmonics of the acceleration are above 3.5 % of the first; 9 or more make it idle"),
     ):
         with_summary(result, rattle_class=f"'{word}'", harmonic_count="17")
         assert words in " ".join(read_page(report(result)).seen.split())

@@ -1,4 +1,4 @@
-"""recording.py run-up: what was put into a run-up stands in its table, and rattle takes it so."""
+"""recording.py run-up: what was put into a run-up stands in its table, and rattle reads it so."""
 
 from __future__ import annotations
 

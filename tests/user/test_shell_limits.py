@@ -111,8 +111,8 @@ def test_the_stack_of_the_program(
     assert ended.returncode == exit_code, ended.stderr
     if exit_code == 3:
         assert ended.stderr == (
-            f"rattle: the stack is limited to {kilobytes} kB (ulimit -s), and rattle takes 1024 kB; "
-            "ulimit -s 8192 is what is usual\n"
+            f"rattle: the stack is limited to {kilobytes} kB (ulimit -s), and rattle needs 1024 kB; "
+            "type ulimit -s 8192, the usual limit\n"
         )
         assert not (tmp_path / "results").exists()
 
@@ -140,7 +140,7 @@ def test_the_stacks_of_threads(
         return
     assert ended.returncode == 3
     assert ended.stderr == (
-        f"rattle: a thread has a stack of {reported} kB (OMP_STACKSIZE or GOMP_STACKSIZE), and rattle takes "
+        f"rattle: a thread has a stack of {reported} kB (OMP_STACKSIZE or GOMP_STACKSIZE), and rattle needs "
         "1024 kB; unset the variable, or set OMP_STACKSIZE=8M\n"
     )
     assert not (tmp_path / "results").exists()

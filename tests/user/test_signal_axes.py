@@ -647,7 +647,7 @@ def test_no_line_of_a_foreign_file_is_quoted(text: str, write, refused) -> None:
         (ONE.text().split("\n", 1)[1], "cycle.csv:1: the first line holds numbers; it must name the columns"),
         (
             ONE.text().replace("\n", "\nold,new\n", 1),
-            "cycle.csv:2: column 2: no number stands here; below the names one row may hold units",
+            "cycle.csv:2: column 2: this is not a number; below the names one row may hold units",
         ),
         (ONE.text().replace("\n", "\r"), "cycle.csv:1: carriage returns alone end its lines"),
     ],

@@ -439,7 +439,7 @@ REFUSED = [
         {"first": "0.0", "scale": "'logarithmic'"},
         "42: &threshold first: a logarithmic range must lie above zero",
     ),
-    ({"last": "1e13"}, "43: &threshold last: 1.0E13 N leads to numbers too large"),
+    ({"last": "1e13"}, "43: &threshold last: 1.0E13 N gives numbers too large"),
     ({"count": "1"}, "44: &threshold count: 1 is not allowed"),
     ({"tolerance": "0.0"}, "45: &threshold tolerance: 0.0 is not allowed"),
     ({"criterion": "'clas'"}, "45: &threshold criterion: 'clas' is not allowed"),

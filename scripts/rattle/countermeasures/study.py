@@ -123,7 +123,7 @@ def study(
     known = dict.fromkeys(lever.key for own in found.values() for lever in own)
     for key in (*ranges, *keys):
         if key not in known:
-            raise CommandError(f"{key} is nothing that is changed here; there are {', '.join(known)}.")
+            raise CommandError(f"{key} is not one of the changes; choose from {', '.join(known)}.")
     pairs = []
     with warnings.catch_warnings():
         # What is odd about a change that is tried is nothing for the user.

@@ -83,7 +83,7 @@ def read(path: Path) -> list[PairStudy]:
             pair = found.get(row["gear"], PairStudy(row["gear"], _read_answer("now", row), ()))
             found[pair.name] = PairStudy(pair.name, pair.now, (*pair.measures, _read_measure(row)))
     except (KeyError, TypeError, ValueError, csv.Error):
-        raise CommandError(f"{path} is no table that countermeasures.py wrote.") from None
+        raise CommandError(f"{path} is not a table that countermeasures.py wrote.") from None
     return list(found.values())
 
 

@@ -133,7 +133,7 @@ def draw_maps(
     """A map of each column asked for, with its stem."""
     if slices and campaign.kind != GRID:
         raise command.CommandError(
-            f"{campaign.path} is no grid but a {campaign.kind} campaign: nothing to slice."
+            f"{campaign.path} is not a grid but a {campaign.kind} campaign: nothing to slice."
         )
     x, y = plane(campaign, options.x, options.y, slices)
     overlay = overlay_of(options)
@@ -143,7 +143,7 @@ def draw_maps(
     for name in campaign_map.lacking_contours(campaign, list(names)):
         command.note(f"{campaign.path} does not record what the contours of {name} need; they are left out.")
     if options.thresholds and campaign.kind != GRID:
-        raise command.CommandError(f"{campaign.path} is no grid: no thresholds are drawn over it.")
+        raise command.CommandError(f"{campaign.path} is not a grid: no thresholds are drawn over it.")
     if campaign.kind == GRID:
         section = new_section(campaign, (x, y), slices)
         for sentence in section.remarks():
@@ -190,7 +190,7 @@ def draw_slices(campaign: Campaign, options: Namespace, slices: dict[str, float]
     """Columns along one key."""
     if campaign.kind != GRID:
         raise command.CommandError(
-            f"{campaign.path} is no grid but a {campaign.kind} campaign: it has no slices."
+            f"{campaign.path} is not a grid but a {campaign.kind} campaign: it has no slices."
         )
     along = options.along or campaign.varied[0]
     section = new_section(campaign, (along,), slices)

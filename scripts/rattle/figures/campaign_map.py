@@ -164,7 +164,7 @@ def _panels_of_pairs(pairs: int, columns: int, narrow: bool) -> tuple[Figure, Se
 
 
 def draw_points(campaign: Campaign, x: str, y: str, column: str, options: Options) -> Figure:
-    """The map of a campaign that is no grid: a dot for each scene."""
+    """The map of a campaign that is not a grid: a dot for each scene."""
     figure, axes = _new_figure()
     handles, colours = scatter(axes, campaign, x, y, column, options.colours)
     if len(campaign.varied) == 2:  # with more keys, neighbours in the picture are no neighbours

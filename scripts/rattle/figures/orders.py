@@ -115,7 +115,7 @@ def read_measured(path: Path) -> Cuts:
         else:
             raise command.CommandError(
                 f"{path}:{table.header}: column {place + 1} ({name}) is neither the speed nor an order, "
-                f"or stands there twice; the head has to be {HEAD},..."
+                f"or is there twice; the head has to be {HEAD},..."
             )
     if speeds is None or not columns:
         raise command.CommandError(f"{path}:{table.header}: the head has to be {HEAD},...")

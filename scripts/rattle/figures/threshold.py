@@ -95,7 +95,7 @@ def cut(found: Thresholds, slices: Mapping[str, float], most: int) -> tuple[Thre
     if not free:
         raise command.CommandError("all varied keys are sliced: one has to stay free.")
     if len(found.varied) > 1 and not found.on_grid:
-        raise command.CommandError(f"{found.result.path} is no grid: its thresholds have no curve.")
+        raise command.CommandError(f"{found.result.path} is not a grid: its thresholds have no curve.")
     held = {}
     for axis in found.axes:
         if axis.key in free:
@@ -114,7 +114,7 @@ def behind(found: Thresholds, path: Path, held: Mapping[str, float]) -> Section:
     campaign = rattle.read_campaign(path)
     if campaign.kind != GRID:
         raise command.CommandError(
-            f"{path} is no grid but a {campaign.kind} campaign: nothing to draw behind."
+            f"{path} is not a grid but a {campaign.kind} campaign: nothing to draw behind."
         )
     free = next(key for key in found.varied if key not in held)
     return new_section(campaign, (free, found.key), {k: v for k, v in held.items() if k in campaign.varied})

@@ -75,13 +75,13 @@ def read_waterfall(path: Path) -> tuple[Map, list[float]]:
     head = [orders.ORDER_COLUMN.fullmatch(name) for name in (rows[0][1:] if rows else [])]
     if len(rows) < 3 or rows[0][0] != "speed_rpm" or len(head) < 2 or not all(head) or len(described) != 2:
         raise command.CommandError(
-            f"{path} is no waterfall; 'recording.py run-up' writes NAME.waterfall.csv beside its table."
+            f"{path} is not a waterfall; 'recording.py run-up' writes NAME.waterfall.csv beside its table."
         )
     try:
         numbers = np.array(rows[1:], dtype=float)
         kept = [float(order) for order in described["kept"].split(",")]
     except ValueError as fault:
-        raise command.CommandError(f"{path} is no waterfall: {fault}.") from None
+        raise command.CommandError(f"{path} is not a waterfall: {fault}.") from None
     columns = np.array([float(found[1]) for found in head if found])
     half = 0.5 * float(columns[1] - columns[0])
     return Map(numbers[:, 0], columns, numbers[:, 1:], half, described["unit"]), kept

@@ -54,7 +54,7 @@ def classify(
         raise ValueError(f"a class needs at least 3 samples a period, not {period}")
     if samples.size % period:
         raise ValueError(
-            f"acceleration holds {samples.size} samples; that is no whole number of periods of {period}"
+            f"acceleration holds {samples.size} samples; that is not a whole number of periods of {period}"
         )
     limits = finite_numbers(
         harmonic_threshold=harmonic_threshold,

@@ -177,8 +177,8 @@ def _from_angle(channel: Channel, bridge: float, mend: bool, notes: list[str]) -
     time, angle = channel.time[finite], channel.within("rad")[finite]
     if len(angle) < 4 or np.ptp(angle) == 0.0:
         raise RecordingError(
-            f"{channel.source}: '{channel.name}' has {len(angle)} samples, all at {angle[:1]} rad; that "
-            "is no angle of a shaft that turns."
+            f"{channel.source}: '{channel.name}' has {len(angle)} samples, all at {angle[:1]} rad; a "
+            "shaft that turns has an angle that changes."
         )
     if np.median(np.sign(np.diff(angle))) < 0.0:
         notes.append(f"'{channel.name}' falls: the shaft is taken to turn the other way.")
@@ -268,7 +268,7 @@ def _from_pulses(channel: Channel, teeth: int, missing: int, bridge: float) -> S
     for unit in NO_PULSES:
         if channel.unit and units.fits(channel.unit, unit):
             raise RecordingError(
-                f"{channel.source}: '{channel.name}' is in {channel.unit}, so it is no tacho; pulses are "
+                f"{channel.source}: '{channel.name}' is in {channel.unit}, so it is not a tacho; pulses are "
                 "in V or have no unit."
             )
     notes: list[str] = []
@@ -367,7 +367,7 @@ def _without_extra(edges: np.ndarray, channel: Channel, notes: list[str]) -> np.
         if len(extra) > 0.1 * len(edges):
             raise RecordingError(
                 f"{channel.source}: {len(extra)} of {len(edges)} pulses of '{channel.name}' come too soon "
-                "behind another; it is no tacho, or noise crosses its middle."
+                "behind another; it is not a tacho, or noise crosses its middle."
             )
         several = f"{len(extra)} pulses" if len(extra) > 1 else "a pulse"
         notes.append(

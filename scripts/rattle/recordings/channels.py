@@ -102,7 +102,7 @@ def read_channels(
         raise RecordingError(f"{path} has no channel of numbers.")
     if not any(len(channel.values) >= LEAST_SAMPLES for channel in channels):
         count = max(len(channel.values) for channel in channels)
-        raise RecordingError(f"{path} has {count or 'no'} sample of a known time; that is no recording.")
+        raise RecordingError(f"{path} has {count or 'no'} sample of a known time; a recording has more.")
     if not any(np.isfinite(channel.values).any() for channel in channels):
         raise RecordingError(f"{path} has no number in any channel: all are gaps.")
     return channels

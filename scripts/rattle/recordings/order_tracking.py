@@ -87,7 +87,7 @@ def track_run_up(
     usable = np.isfinite(values) & (time >= course.time[0]) & (time <= course.time[-1])
     time, values = time[usable], values[usable]
     if len(time) < LEAST_SAMPLES:
-        raise RecordingError(f"the signal has {len(time)} samples within the run-up; that is no recording.")
+        raise RecordingError(f"the signal has {len(time)} samples within the run-up, too few.")
     phase = course.phase(time)
     # What rotates is no oscillation; its slow rest is fitted in each window.
     values = values - np.polynomial.Polynomial.fit(phase, values, 1)(phase)
@@ -156,7 +156,7 @@ def _rows(course: Course, step: float | None, phase: np.ndarray, reach: float) -
     low, high = sorted(float(speed) * PER_MINUTE for speed in (course.speed[0], course.speed[-1]))
     if high - low < STEADY * high:
         raise RecordingError(
-            f"the speed goes from {low:.4g} to {high:.4g} 1/min, which is no run-up; "
+            f"the speed goes from {low:.4g} to {high:.4g} 1/min, which is not a run-up; "
             "'recording.py cycle' takes steady recordings."
         )
     if step is None:

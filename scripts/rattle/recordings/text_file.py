@@ -81,7 +81,7 @@ def _decoded(path: Path, notes: list[str]) -> str:
         text = content.decode("latin-1").rstrip("\x1a")
         if sum(not (c.isprintable() or c.isspace()) for c in text[:4000]) > 40:
             raise RecordingError(f"{path} is neither text nor a known format of recordings.") from None
-        notes.append(f"{path}: it is no UTF-8; its letters are taken as latin-1.")
+        notes.append(f"{path}: it is not UTF-8; its letters are taken as latin-1.")
         return text
 
 
@@ -309,7 +309,7 @@ def _column(path: Path, cells: Any, name: str, lines: np.ndarray, decimal: str) 
         at = int(np.argmax(strange))
         cell = str(cells.iloc[at]).strip()[:40]
         raise RecordingError(
-            f"{path}, line {lines[at]}: '{cell}' in column '{name}' is no number of a bench."
+            f"{path}, line {lines[at]}: '{cell}' in column '{name}' is too large to be measured."
         )
     return values
 

@@ -128,7 +128,7 @@ def factor(unit: str, target: str, name: str = "the channel") -> float:
     unit, target = plain(unit), plain(target)
     if not unit:
         raise RecordingError(
-            f"'{name}' has no unit in its file; say it by --unit '{name}={target}' or what it is."
+            f"'{name}' has no unit in its file; give it by --unit '{name}={target}', or with another unit."
         )
     if unit == target:
         return 1.0

@@ -88,7 +88,7 @@ def part(result: ResultFile, name: str, limits: Limits) -> list[str]:
             "film": film_part,
         }
         parts = makers.get(result.task, table_part)(result)
-    unfinished = "This run was not finished when the page was written; what it had done so far is shown."
+    unfinished = "This run was not finished when the page was written; what it had done by then is shown."
     parts, folds = parts
     return [
         page.paragraph(asked.operating_point(result), "lead"),

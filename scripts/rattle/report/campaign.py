@@ -170,7 +170,7 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
     for name, sentence in (
         (
             "model_limit",
-            "In {count} scenes the film leaves what the model can mean: below 1 nm, or beyond a tenth of the "
+            "In {count} scenes the film leaves the range of the model: below 1 nm, or above a tenth of the "
             "radius.",
         ),
         (

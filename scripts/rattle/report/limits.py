@@ -27,7 +27,7 @@ def read_limits(path: Path) -> dict[str, float]:
         try:
             gear, value = row[0], float(row[1])
         except (IndexError, ValueError):
-            raise CommandError(f"{path}:{number}: a name and a number [N] have to stand here.") from None
+            raise CommandError(f"{path}:{number}: a name and a number [N] are expected.") from None
         if not math.isfinite(value) or value <= 0.0 or gear in limits:
             raise CommandError(f"{path}:{number}: a limit is a positive number, one for each gear.")
         limits[gear] = value

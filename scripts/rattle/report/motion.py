@@ -43,9 +43,9 @@ ERRORS = {
 CLASSES = {
     "quiet": "quiet by its sound: what its acceleration adds to harmonics of the force is small, "
     "a harmonic distortion of {harmonic_distortion}, below the limit of {quiet_limit}.",
-    "creep": "creep rattle by its sound: {lines} of the acceleration stand above {threshold}, fewer than "
+    "creep": "creep rattle by its sound: {lines} of the acceleration are above {threshold}, fewer than "
     "the {idle_harmonics} from which on it is idle rattle.",
-    "idle": "idle rattle by its sound, which reaches far up in frequency: {lines} of the acceleration stand "
+    "idle": "idle rattle by its sound, which reaches far up in frequency: {lines} of the acceleration are "
     "above {threshold}; {idle_harmonics} or more make it idle rattle.",
     "irregular": "irregular rattle by its sound: no period of the motion is like the one before. A share of "
     "{irregular_fraction} of the "
@@ -61,7 +61,7 @@ CLASS_MEANINGS = {
     "quiet": "The acceleration has little beside the orders of the force.",
     "creep": "Few harmonics of the acceleration stand out.",
     "idle": "Many harmonics of the acceleration stand out: a sound that reaches far up in frequency.",
-    "irregular": "No period of the motion is like the one before, and neighbouring motions part for good.",
+    "irregular": "No period of the motion is like the one before, and neighbouring motions diverge.",
     "irregular so far": "The motion did not repeat as long as it was followed, and it may settle.",
     "subharmonic": "The motion repeats only after several periods of the force.",
 }
@@ -87,9 +87,7 @@ LIMITS = {
 OUTSIDE_CLOSURE = (
     "Loads, oil or pressures leave the range that the closure of the elastohydrodynamic film was fitted to."
 )
-STABILITIES = {
-    "unstable": "A periodic motion was found, but it is unstable: small disturbances lead away from it."
-}
+STABILITIES = {"unstable": "A periodic motion was found, but it is unstable: small disturbances grow."}
 # By how much teeth deflect under the largest load, by whether they are elastic and whether that matters.
 STIFFNESS = {
     (
@@ -263,7 +261,7 @@ def change_sentences(summaries: Mapping[str, Summary]) -> list[str]:
     found = ", ".join(f"{gear} {ratio:.2f}".strip() for gear, ratio in ratios.items())
     return [
         f"Inertia over drag: {found}. Below 1 a tooth stays on its flank, or on the film there; "
-        "more drag, less inertia of the loose gear or a calmer shaft lead there."
+        "more drag, less inertia of the loose gear or a calmer shaft lowers it."
     ]
 
 

@@ -134,7 +134,7 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
         yield (
             f"At {sure} of {int(crossed.sum())} thresholds both ends are verified: solved "
             "again, tighter, they are on the same side. "
-            "Where that cannot be had close to the change, its ends lie "
+            "Where that is not possible close to the change, its ends lie "
             "farther apart, and the distance between them is how well the threshold is known."
         )
     count = found.result.value("threshold", "count")
