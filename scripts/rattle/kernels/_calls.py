@@ -14,6 +14,8 @@ import numpy as np
 
 from rattle import _kernels
 
+# What the arguments called "arrays" take. Results are Any: arrays, or a number where all arguments are.
+Numbers = float | np.ndarray
 Declared = TypeVar("Declared", bound=Callable[..., Any])
 
 

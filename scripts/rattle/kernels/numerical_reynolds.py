@@ -16,29 +16,29 @@ REYNOLDS_STATUS = ("converged", "no_rigid_film", "not_converged", "unresolved")
 class FilmScales(NamedTuple):
     """Groups of a film for `solve_reynolds` and the scales that turn its answers into SI units.
 
-    The speed of the scale is v = max(|u|, 4 |w|/sqrt(2 h*)), so u may have either sign or vanish.
+    The speed of the scale is ``v = max(|u|, 4 |w|/sqrt(2 h*))``, so u may have either sign or vanish.
     """
 
-    rolling: float  # u/v [-]
-    squeeze: float  # 4 (w/v)/sqrt(2 h*) [-]; A where v = u
-    pressure_group: float  # alpha times the pressure scale [-]; B where v = u
-    roelands_pressure: float  # alpha p_r [-], p_r = 1.96e8 Pa
-    roelands_logarithm: float  # ln(eta0/(Pa s)) + 9.67 [-]
-    pressure_scale: float  # q/q* [Pa]
-    load_scale: float  # W/l over the load group [N/m]
+    rolling: float  #: u/v [-]
+    squeeze: float  #: 4 (w/v)/sqrt(2 h*) [-]; A where v = u
+    pressure_group: float  #: alpha times the pressure scale [-]; B where v = u
+    roelands_pressure: float  #: alpha p_r [-], p_r = 1.96e8 Pa
+    roelands_logarithm: float  #: ln(eta0/(Pa s)) + 9.67 [-]
+    pressure_scale: float  #: q/q* [Pa]
+    load_scale: float  #: W/l over the load group [N/m]
 
 
 class ReynoldsFilm(NamedTuple):
     """What the grid found; without a solution the numbers are NaN."""
 
-    status: str  # one of REYNOLDS_STATUS
-    iterations: int  # Newton steps on the finest grid
-    load: float  # W h0/(12 l v eta0 R) [-]; Psi where v = u
-    load_correction: float  # what extrapolation changed in the load [-]
-    maximum_pressure: float  # largest q* [-]
-    rupture_angle: float  # xbar of the rupture [rad]
-    angle: np.ndarray  # xbar of the cells + 1 nodes [rad]
-    pressure: np.ndarray  # q* there, on the grid, not extrapolated [-]
+    status: str  #: one of REYNOLDS_STATUS
+    iterations: int  #: Newton steps on the finest grid
+    load: float  #: W h0/(12 l v eta0 R) [-]; Psi where v = u
+    load_correction: float  #: what extrapolation changed in the load [-]
+    maximum_pressure: float  #: largest q* [-]
+    rupture_angle: float  #: xbar of the rupture [rad]
+    angle: np.ndarray  #: xbar of the cells + 1 nodes [rad]
+    pressure: np.ndarray  #: q* there, on the grid, not extrapolated [-]
 
 
 def scale_film(
@@ -50,9 +50,28 @@ def scale_film(
     viscosity: float,
     pressure_viscosity: float,
 ) -> FilmScales:
-    """Groups and scales of one film: R [m], h0 [m], u1 + u2 [m/s], w [m/s], eta0 [Pa s], alpha [1/Pa].
+    """Groups and scales of one film.
 
-    All finite; R, h0, eta0 positive, alpha not negative.
+    Parameters
+    ----------
+    radius, film
+        R and h0 [m], positive.
+    speed_sum, squeeze_velocity
+        u1 + u2 and w [m/s].
+    viscosity
+        eta0 [Pa s], positive.
+    pressure_viscosity
+        alpha [1/Pa], not negative.
+
+    Returns
+    -------
+    scales
+        What `solve_reynolds` takes, and what turns its answers into SI units.
+
+    Raises
+    ------
+    ValueError
+        A number is not finite or outside its range.
     """
     numbers = finite_numbers(
         positive=("radius", "film", "viscosity"),
@@ -80,16 +99,36 @@ def solve_reynolds(
     cells: int = 1024,
     extrapolate: bool = True,
 ) -> ReynoldsFilm:
-    """One film by finite volumes: Reynolds equation, Swift-Stieber rupture by complementarity, eqs (6), (17).
+    """One film by finite volumes: Reynolds' equation, rupture by complementarity, eqs (6) and (17).
 
-    rolling, squeeze, pressure_group: u/v, 4 (w/v)/sqrt(2 h*), alpha times the pressure scale [-], any v > 0.
     Independent of every closed form, and of the reduced pressure of eq (31). With rolling = 1, squeeze = A
     and pressure_group = B its load is Psi(A, B), and Phi(A) for B = 0; the error falls as 1/cells^2, faster
-    with `extrapolate` (Richardson, from the grid of half the cells).
+    with `extrapolate`.
 
-    law: viscosity law, one of VISCOSITY_LAWS; 'roelands' reads the two roelands numbers of `scale_film`.
-    cells: even, at least 16, with `extrapolate` at least 32. A group that is not finite or beyond 1e100, a
-    negative pressure group, and constants outside the range of Roelands' law raise ValueError.
+    Parameters
+    ----------
+    rolling, squeeze
+        u/v and 4 (w/v)/sqrt(2 h*) [-], any v > 0.
+    pressure_group
+        alpha times the pressure scale [-], not negative.
+    law
+        Viscosity law, one of VISCOSITY_LAWS.
+    roelands_pressure, roelands_logarithm
+        Constants of Roelands' law [-], as `scale_film` has them; other laws do not read them.
+    cells
+        Cells of the grid, even, at least 16, with `extrapolate` at least 32.
+    extrapolate
+        Whether the load is extrapolated from the grid of half the cells (Richardson).
+
+    Returns
+    -------
+    film
+        What the grid found.
+
+    Raises
+    ------
+    ValueError
+        A group is not finite or beyond 1e100, or a constant outside the range of its law.
     """
     if law not in VISCOSITY_LAWS:
         raise ValueError(f"law must be one of {', '.join(VISCOSITY_LAWS)}, not {law!r}")

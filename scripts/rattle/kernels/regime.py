@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rattle import codes
-from rattle.kernels._calls import elementwise
+from rattle.kernels._calls import Numbers, elementwise
 
 MAP_REGIMES = (
     "unknown",
@@ -18,85 +18,189 @@ FILM_REGIMES = tuple(codes.FILM_REGIMES.values())
 
 
 @elementwise
-def equivalent_radius(radius_1: Any, radius_2: Any) -> Any:
-    """R [m], 1/R = 1/r1 + 1/r2, eq (2), for arrays of both radii [m]; a hollow one is negative."""
+def equivalent_radius(radius_1: Numbers, radius_2: Numbers) -> Any:
+    """Radius of the cylinder over a plane that two flanks are alike to, eq (2).
+
+    Parameters
+    ----------
+    radius_1, radius_2
+        Radii of both flanks [m]; a hollow one is negative.
+
+    Returns
+    -------
+    radius
+        R [m], 1/R = 1/r1 + 1/r2.
+    """
 
 
 @elementwise
-def plane_strain_modulus(young_modulus: Any, poisson_ratio: Any) -> Any:
-    """E* = E/(1 - nu^2) [Pa], eq (3), for arrays of E [Pa] and nu [-]."""
+def plane_strain_modulus(young_modulus: Numbers, poisson_ratio: Numbers) -> Any:
+    """Elastic modulus of plane strain, eq (3).
+
+    Parameters
+    ----------
+    young_modulus, poisson_ratio
+        E [Pa] and nu [-].
+
+    Returns
+    -------
+    modulus
+        E* = E/(1 - nu^2) [Pa].
+    """
 
 
 @elementwise
-def contact_deflection(radius: Any, pressure: Any, modulus: Any) -> Any:
-    """delta = 4 R p^2/E*^2 [m], eq (4), for arrays of R [m], p [Pa] and E* [Pa]."""
+def contact_deflection(radius: Numbers, pressure: Numbers, modulus: Numbers) -> Any:
+    """Deflection of the flanks under a pressure, eq (4).
+
+    Parameters
+    ----------
+    radius, pressure, modulus
+        R [m], p [Pa] and E* [Pa].
+
+    Returns
+    -------
+    deflection
+        delta = 4 R p^2/E*^2 [m].
+    """
 
 
 @elementwise
 def grubin_film(
     *,
-    radius: Any,
-    length: Any,
-    speed: Any,
-    viscosity: Any,
-    pressure_viscosity: Any,
-    modulus: Any,
-    load: Any,
+    radius: Numbers,
+    length: Numbers,
+    speed: Numbers,
+    viscosity: Numbers,
+    pressure_viscosity: Numbers,
+    modulus: Numbers,
+    load: Numbers,
 ) -> Any:
-    """Elastohydrodynamic film h0 [m] of eq (33), h* = 2.076 u*^0.72 (W/(E* R l))^-0.091.
+    """Elastohydrodynamic film of eq (33), h* = 2.076 u*^0.72 (W/(E* R l))^-0.091.
 
-    For arrays of R [m], l [m], entrainment speed [m/s], eta0 [Pa s], alpha [1/Pa], E* [Pa], W [N], all
-    positive. Its load group is its own, not that of eq (20).
+    Its load group is its own, not that of eq (20). All arguments are positive.
+
+    Parameters
+    ----------
+    radius, length, speed, viscosity
+        R [m], l [m], entrainment speed U [m/s] and eta0 [Pa s].
+    pressure_viscosity, modulus, load
+        alpha [1/Pa], E* [Pa] and W [N].
+
+    Returns
+    -------
+    film
+        h0 [m].
     """
 
 
 @elementwise
 def viscosity_group(
-    *, radius: Any, speed: Any, viscosity: Any, pressure_viscosity: Any, line_load: Any
+    *, radius: Numbers, speed: Numbers, viscosity: Numbers, pressure_viscosity: Numbers, line_load: Numbers
 ) -> Any:
-    """g_v = alpha sqrt((W/l)^3/(eta0 U R^2)) [-] of Johnson's regime map.
+    """Viscosity group of Johnson's regime map.
 
-    For arrays of R [m], entrainment speed U [m/s], eta0 [Pa s], alpha [1/Pa], W/l [N/m].
+    Parameters
+    ----------
+    radius, speed, viscosity
+        R [m], entrainment speed U [m/s] and eta0 [Pa s].
+    pressure_viscosity, line_load
+        alpha [1/Pa] and W/l [N/m].
+
+    Returns
+    -------
+    group
+        g_v = alpha sqrt((W/l)^3/(eta0 U R^2)) [-].
     """
 
 
 @elementwise
-def elasticity_group(*, radius: Any, speed: Any, viscosity: Any, modulus: Any, line_load: Any) -> Any:
-    """g_e = (W/l)/sqrt(eta0 U E* R) [-] of Johnson's regime map.
+def elasticity_group(
+    *, radius: Numbers, speed: Numbers, viscosity: Numbers, modulus: Numbers, line_load: Numbers
+) -> Any:
+    """Elasticity group of Johnson's regime map.
 
-    For arrays of R [m], entrainment speed U [m/s], eta0 [Pa s], E* [Pa], W/l [N/m].
+    Parameters
+    ----------
+    radius, speed, viscosity
+        R [m], entrainment speed U [m/s] and eta0 [Pa s].
+    modulus, line_load
+        E* [Pa] and W/l [N/m].
+
+    Returns
+    -------
+    group
+        g_e = (W/l)/sqrt(eta0 U E* R) [-].
     """
 
 
 @elementwise
-def film_parameter(*, radius: Any, speed: Any, viscosity: Any, line_load: Any, film: Any) -> Any:
-    """h0 (W/l)/(eta0 U R) [-], the film of Johnson's regime map.
+def film_parameter(
+    *, radius: Numbers, speed: Numbers, viscosity: Numbers, line_load: Numbers, film: Numbers
+) -> Any:
+    """Film of Johnson's regime map.
 
-    For arrays of R [m], entrainment speed U [m/s], eta0 [Pa s], W/l [N/m], h0 [m].
+    Parameters
+    ----------
+    radius, speed, viscosity
+        R [m], entrainment speed U [m/s] and eta0 [Pa s].
+    line_load, film
+        W/l [N/m] and h0 [m].
+
+    Returns
+    -------
+    parameter
+        h0 (W/l)/(eta0 U R) [-].
     """
 
 
 @elementwise
-def limiting_films(g_viscosity: Any, g_elasticity: Any) -> tuple[Any, Any, Any, Any]:
-    """The four limiting films of Johnson's map [-], in the order of MAP_REGIMES[1:].
+def limiting_films(g_viscosity: Numbers, g_elasticity: Numbers) -> tuple[Any, Any, Any, Any]:
+    """The four limiting films of Johnson's map, in the form of `film_parameter`.
 
-    For arrays of g_v and g_e [-]. Films in the form of `film_parameter`: Martin, Blok, Herrebrugh, Dowson.
+    Parameters
+    ----------
+    g_viscosity, g_elasticity
+        g_v and g_e [-].
+
+    Returns
+    -------
+    martin, blok, herrebrugh, dowson
+        Films [-] in the order of MAP_REGIMES[1:].
     """
 
 
 @elementwise
-def mapped_regime(g_viscosity: Any, g_elasticity: Any) -> Any:
-    """Regime of Johnson's map as an index into MAP_REGIMES (int32), for arrays of g_v and g_e [-].
+def mapped_regime(g_viscosity: Numbers, g_elasticity: Numbers) -> Any:
+    """Regime of Johnson's map: that of the largest limiting film.
 
-    The limit with the largest film rules; 0 where a group is negative or NaN.
+    Parameters
+    ----------
+    g_viscosity, g_elasticity
+        g_v and g_e [-].
+
+    Returns
+    -------
+    regime
+        Index into MAP_REGIMES (int32); 0 where a group is negative or NaN.
     """
 
 
 @elementwise
-def film_regime(alpha_p_maximum: Any, deflection: Any, film: Any) -> Any:
-    """Regime of a computed film as an index into FILM_REGIMES (int32).
+def film_regime(alpha_p_maximum: Numbers, deflection: Numbers, film: Numbers) -> Any:
+    """Regime of a computed film.
 
-    For arrays of alpha p_max [-] of the exact pressure, delta [m] of eq (4) and h0 [m]. From alpha p = 1 on
-    and above delta = 0.1 h0 elastohydrodynamic, from alpha p = 0.1 on piezo-viscous; 0 where a number is
-    negative or NaN or the film not positive, but delta is read below alpha p = 1 only.
+    From alpha p = 1 on and above delta = 0.1 h0 it is elastohydrodynamic, from alpha p = 0.1 on piezo-
+    viscous.
+
+    Parameters
+    ----------
+    alpha_p_maximum, deflection, film
+        alpha p_max [-] of the exact pressure, delta [m] of eq (4) and h0 [m].
+
+    Returns
+    -------
+    regime
+        Index into FILM_REGIMES (int32); 0 where a number is negative or NaN or the film not positive, but
+        delta is read below alpha p = 1 only.
     """

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,22 +13,48 @@ from rattle.kernels._calls import finite_numbers, finite_samples, positive_count
 CLASSES = tuple(codes.CLASSES.values())
 
 
-def amplitude_spectrum(samples: Any) -> np.ndarray:
+def amplitude_spectrum(samples: np.ndarray) -> np.ndarray:
     """Single-sided amplitudes a_0 .. a_(n/2) of n equidistant samples, rectangular window.
 
-    samples: one-dimensional, finite, not empty; the amplitudes have their unit.
+    Parameters
+    ----------
+    samples
+        One-dimensional, finite, not empty.
+
+    Returns
+    -------
+    amplitudes
+        In the unit of the samples.
     """
     flat = finite_samples(samples, "samples")
     return _kernels.wrap_amplitude_spectrum(flat, flat.size // 2 + 1)
 
 
-def lines(acceleration: Any, samples_per_period: int) -> np.ndarray:
-    """a_n [m/s2]: amplitude of z'' at n f_exc for every n that the samples resolve; n = 1 comes first."""
+def lines(acceleration: np.ndarray, samples_per_period: int) -> np.ndarray:
+    """Amplitudes of the acceleration at the multiples of the excitation frequency.
+
+    Parameters
+    ----------
+    acceleration
+        z'' [m/s2] over whole periods, one-dimensional and finite.
+    samples_per_period
+        At least 3.
+
+    Returns
+    -------
+    harmonics
+        a_n [m/s2] at n f_exc for every n that the samples resolve; n = 1 comes first.
+
+    Raises
+    ------
+    ValueError
+        The samples are no whole number of periods, or not finite.
+    """
     return classify(acceleration, samples_per_period)["harmonics"]
 
 
 def classify(
-    acceleration: Any,
+    acceleration: np.ndarray,
     samples_per_period: int,
     *,
     harmonic_threshold: float = 0.01,
@@ -36,17 +63,40 @@ def classify(
     irregular_limit: float = 0.01,
     noise_floor: float = 0.0,
     orbit_period: int | None = None,
-    force_orders: Any = (1,),
-    force_amplitudes: Any = (1.0,),
+    force_orders: Sequence[int] = (1,),
+    force_amplitudes: Sequence[float] = (1.0,),
 ) -> dict[str, Any]:
-    """Class of a window of whole periods of z'' [m/s2], with the measures it rests on.
+    """Class of a window of whole periods of the acceleration, with the measures that it follows from.
 
-    acceleration: one-dimensional, finite; samples_per_period: at least 3. The thresholds are finite floats.
-    noise_floor [m/s2]: a motion whose rms times sqrt(2) does not exceed it is at rest. A motion at rest is
-    quiet and has no ratios: these are nan then. orbit_period: periods of the force after which the motion is
-    known to repeat, if that is known; with several, a motion that were irregular is subharmonic.
-    force_orders, force_amplitudes: harmonics of a force of several; lines there are no sign of rattle, the
-    others are compared with the largest of them, the reference line.
+    A motion at rest is quiet and has no ratios: these are nan then.
+
+    Parameters
+    ----------
+    acceleration
+        z'' [m/s2], one-dimensional and finite.
+    samples_per_period
+        At least 3.
+    harmonic_threshold, idle_harmonics, quiet_limit, irregular_limit
+        Limits of the classes, as keys of &spectrum have them.
+    noise_floor
+        Acceleration [m/s2]: a motion whose rms times sqrt(2) does not exceed it is at rest.
+    orbit_period
+        Periods of the force after which the motion is known to repeat, if that is known; with several, a
+        motion that were irregular is subharmonic.
+    force_orders, force_amplitudes
+        Harmonics of a force of several; lines there are no sign of rattle, the others are compared with the
+        largest of them, the reference line.
+
+    Returns
+    -------
+    measures
+        rattle_class, harmonic_count, spectral_reach, harmonic_distortion, irregular_fraction,
+        reversals_per_period, sampling_sufficient, harmonics [m/s2] and reference_line.
+
+    Raises
+    ------
+    ValueError
+        The samples are no whole number of periods, or a number is outside its range.
     """
     samples = finite_samples(acceleration, "acceleration")
     period = positive_count(samples_per_period, "samples_per_period")
