@@ -25,31 +25,46 @@ SCENE = "scene"
 
 @dataclass(frozen=True)
 class Axis:
-    """One varied key: its values in rising order for a grid, else its least and greatest value."""
+    """One varied key."""
 
-    key: str
-    unit: str
-    scale: str
-    values: np.ndarray
+    key: str  #: as group.key
+    unit: str  #: of the key
+    scale: str  #: 'linear' or 'logarithmic'
+    values: np.ndarray  #: in rising order for a grid, else the least and the greatest
 
 
 class Campaign(ResultFile):
-    """One campaign result.
+    """One campaign result: a mapping of column names to read-only arrays.
 
-    ``campaign['rattle_class']`` is a read-only array with an entry for every scene, NaN where the scene is
-    not done; it is mapped from the file as long as all are.
+    ``campaign['rattle_class']`` has an entry for every scene, NaN where the scene is not done; it is mapped
+    from the file as long as all are.
 
     Attributes
     ----------
-    row_count : scenes that the file is to hold
-    chunks : the chunk table: rows in a chunk, and the checksum of each
-    done : for every scene, whether it is done
-    kind : 'grid', 'sample' or 'csv'
-    varied : the varied keys, as group.key; 'gear' first where several pairs were solved
-    gears : names of these pairs, by the numbers 1, 2, ... in the column 'gear'
-    part, parts : which part of how many this is; 1 and 1 for a whole campaign
-    scene_count : scenes of the whole campaign, None where only its end shows
-    and those of every `ResultFile`
+    row_count
+        Scenes that the file is to hold.
+    chunks
+        The chunk table: rows in a chunk, and the checksum of each.
+    done
+        For every scene, whether it is done.
+    kind
+        'grid', 'sample' or 'csv'.
+    varied
+        The varied keys, as group.key; 'gear' first where several pairs were solved.
+    gears
+        Names of these pairs, by the numbers 1, 2, ... in the column 'gear'.
+    part, parts
+        Which part of how many this is; 1 and 1 for a whole campaign.
+    scene_count
+        Scenes of the whole campaign, None where only its end shows.
+    path
+        Where the file is.
+    names, units
+        Column names in order, and the unit of each by its name.
+    closed
+        False when the run was killed, or still runs.
+    program_version, input_text
+        As written by the program.
     """
 
     def __init__(
@@ -105,7 +120,23 @@ class Campaign(ResultFile):
         return name if self._pair is None else f"{name}.{self.gears[self._pair]}"
 
     def pair(self, gear: str) -> Campaign:
-        """The campaign of one gear pair alone, as if no other had been in the input."""
+        """The campaign of one gear pair alone, as if no other had been in the input.
+
+        Parameters
+        ----------
+        gear
+            Name of the pair.
+
+        Returns
+        -------
+        campaign
+            Its scenes.
+
+        Raises
+        ------
+        ResultError
+            There is no such pair, or this is a part of a campaign.
+        """
         if gear not in self.gears:
             known = f"it has {', '.join(self.gears)}" if self.gears else "it has one pair only"
             raise ResultError(f"{self.path} has no gear '{gear}'; {known}.")
@@ -144,7 +175,23 @@ class Campaign(ResultFile):
         return tuple(self._axis(key, planned.get(key)) for key in self.varied)
 
     def axis(self, key: str) -> Axis:
-        """The axis of one varied key."""
+        """The axis of one varied key.
+
+        Parameters
+        ----------
+        key
+            The key, as group.key.
+
+        Returns
+        -------
+        axis
+            Its values with their unit.
+
+        Raises
+        ------
+        ResultError
+            The campaign does not vary it.
+        """
         for axis in self.axes:
             if axis.key == key:
                 return axis
@@ -163,7 +210,23 @@ class Campaign(ResultFile):
         return tuple(_nearest(axis.values, self[axis.key][self.done]) for axis in self.axes)
 
     def grid(self, name: str) -> np.ndarray:
-        """A column on the grid, an axis for each varied key, NaN where the scene is not done."""
+        """A column on the grid.
+
+        Parameters
+        ----------
+        name
+            Name of the column.
+
+        Returns
+        -------
+        values
+            An axis for each varied key, NaN where the scene is not done.
+
+        Raises
+        ------
+        ResultError
+            There is no such column, or the campaign is no grid.
+        """
         values = np.full(self.shape, np.nan)
         values[self.places] = self[name][self.done]
         return values
@@ -242,6 +305,16 @@ class Campaign(ResultFile):
 
 def read_campaign(path: str | Path) -> Campaign:
     """Open a campaign result.
+
+    Parameters
+    ----------
+    path
+        The file, NAME.rattle.
+
+    Returns
+    -------
+    campaign
+        Its scenes.
 
     Raises
     ------

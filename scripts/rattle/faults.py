@@ -22,11 +22,11 @@ _ODD_KEY = re.compile(r"&(?P<group>\w+) (?P<key>\w+) = ")
 class Fault(NamedTuple):
     """One fault: where it is, and what is wrong; None where the program names no such place."""
 
-    file: str
-    line: int | None
-    group: str | None
-    key: str | None
-    message: str
+    file: str  #: as it was given
+    line: int | None  #: from 1 on
+    group: str | None  #: without its &
+    key: str | None  #: without its group
+    message: str  #: one plain sentence
 
     def __str__(self) -> str:
         line = f":{self.line}" if self.line else ""
@@ -36,7 +36,15 @@ class Fault(NamedTuple):
 
 
 class RunError(Exception):
-    """The program did not do what was asked; `faults` are its own words, one by one."""
+    """The program did not do what was asked.
+
+    Attributes
+    ----------
+    faults
+        What it reported, a `Fault` each.
+    exit_code
+        The exit code of the program.
+    """
 
     def __init__(self, faults: list[Fault], exit_code: int, words: str = "") -> None:
         super().__init__("\n".join(map(str, faults)) or words or f"rattle ended with exit code {exit_code}.")
@@ -45,11 +53,17 @@ class RunError(Exception):
 
 
 class InputError(RunError):
-    """Bad input: nothing was run."""
+    """Bad input: nothing was run. Its `faults` have file, line, group and key of each fault."""
 
 
 class InputWarning(UserWarning):
-    """What is odd about an input that was solved all the same; `fault` has the sentence and its place."""
+    """What is odd about an input that was solved all the same.
+
+    Attributes
+    ----------
+    fault
+        The sentence and its place.
+    """
 
     def __init__(self, line: str) -> None:
         super().__init__(line)

@@ -28,16 +28,25 @@ PROFILES_ENDING = ".profiles.rattle"
 
 
 class Result(ResultFile):
-    """One result file of a single scene.
+    """One result file of a single scene: a mapping of column names to read-only arrays.
 
-    ``result['film_thickness']`` is a read-only array mapped from the file, not a copy. What is read is held
-    against the checksums of the file; a column as a whole, `samples` the rows asked for.
+    ``result['film_thickness']`` is mapped from the file, not a copy. What is read is compared with the
+    checksums of the file; a column as a whole, `samples` the rows asked for.
 
     Attributes
     ----------
-    row_count : rows that the file holds, without the extreme ones
-    coarse : whether the program says that the series is coarser than the motion
-    and those of every `ResultFile`
+    row_count
+        Rows that the file holds, without the extreme ones.
+    coarse
+        Whether the program says that the series is coarser than the motion.
+    path
+        Where the file is.
+    names, units
+        Column names in order, and the unit of each by its name.
+    closed
+        False when the run was killed, or still runs.
+    program_version, input_text
+        As written by the program.
     """
 
     def __init__(self, path: Path, header: ResultHeader, rows: np.ndarray, row_count: int) -> None:
@@ -62,12 +71,30 @@ class Result(ResultFile):
 
     @cached_property
     def extremes(self) -> Mapping[str, np.ndarray]:
-        """The extreme rows, by column: the extremes of the motion that fall between the other rows."""
+        """The extreme rows by column, which are extremes of the motion that fall between the other rows."""
         rows = self._rows.extremes()
         return MappingProxyType({name: rows[:, place] for place, name in enumerate(self.names)})
 
     def merged(self, names: Sequence[str], rows: slice = slice(None)) -> list[np.ndarray]:
-        """Some columns with the extreme rows put in by time, for a curve; copies, all finite."""
+        """Some columns with the extreme rows put in by time, for a curve; copies, all finite.
+
+        Parameters
+        ----------
+        names
+            Names of the columns.
+        rows
+            Which rows, by default all.
+
+        Returns
+        -------
+        columns
+            An array for each name.
+
+        Raises
+        ------
+        ResultError
+            A value is not finite.
+        """
         parts = [self.samples(name, rows) for name in names]
         if TIME not in self or not self.extremes[TIME].size:
             return parts
@@ -122,27 +149,88 @@ class Result(ResultFile):
         return f"<Result {self.path}: {self.row_count} rows of {', '.join(self)}; {state}>"
 
     def require_rows(self, task: str) -> None:
-        """Raise ResultError if this is the result of another task, or holds nothing to draw."""
+        """Refuse the result of another task, or one that holds nothing to draw.
+
+        Parameters
+        ----------
+        task
+            The task that it has to be of.
+
+        Raises
+        ------
+        ResultError
+            It is none of that, or has no row.
+        """
         self.require_task(task)
         if self.row_count == 0:
             raise ResultError(f"{self.path} holds no row: there is nothing to draw.")
 
     def number(self, group: str, key: str) -> float:
-        """One number of the resolved input."""
+        """One number of the resolved input.
+
+        Parameters
+        ----------
+        group, key
+            Names of its group and key.
+
+        Returns
+        -------
+        number
+            In the unit of the key.
+
+        Raises
+        ------
+        ResultError
+            There is no such number.
+        """
         number = self.value(group, key)
         if isinstance(number, bool) or not isinstance(number, int | float):
             raise ResultError(f"The resolved input in {self.path} has no number as {group}.{key}.")
         return number
 
     def positive_integer(self, group: str, key: str) -> int:
-        """One count of the resolved input."""
+        """One count of the resolved input.
+
+        Parameters
+        ----------
+        group, key
+            Names of its group and key.
+
+        Returns
+        -------
+        count
+            At least 1.
+
+        Raises
+        ------
+        ResultError
+            There is no such count.
+        """
         number = self.number(group, key)
         if number != int(number) or number < 1:
             raise ResultError(f"The resolved input in {self.path} has no positive integer as {group}.{key}.")
         return int(number)
 
     def samples(self, name: str, rows: slice = slice(None)) -> np.ndarray:
-        """A contiguous copy of some rows of a column, all of them finite."""
+        """A contiguous copy of some rows of a column, all of them finite.
+
+        Parameters
+        ----------
+        name
+            Name of the column.
+        rows
+            Which rows, by default all.
+
+        Returns
+        -------
+        values
+            In the unit of the column.
+
+        Raises
+        ------
+        ResultError
+            There is no such column, a value is not finite, or the file is damaged.
+        """
         values = np.ascontiguousarray(self._part(name, rows), dtype=np.float64)
         if not np.isfinite(values).all():
             raise ResultError(f"The column '{name}' of {self.path} holds values that are not finite.")
@@ -164,6 +252,7 @@ class Result(ResultFile):
 
     @property
     def scene_name(self) -> str:
+        """Name of the scene."""
         return str(self.value("scene", "name")).strip()
 
     @property
@@ -220,7 +309,7 @@ class Result(ResultFile):
 
     @property
     def window_periods(self) -> int:
-        """Periods that the program judged: those of the &spectrum group, or one period of a steady motion."""
+        """Periods that the program judged, those of the &spectrum group, or one period of a steady motion."""
         if str(self.input.get("solver", {}).get("until", "periods")).strip() == "steady":
             if not self.summary_path.exists():
                 raise ResultError(
@@ -237,11 +326,27 @@ class Result(ResultFile):
         return self.positive_integer("spectrum", "periods")
 
     def window(self, periods: int | None = None, *, with_start: bool = False) -> slice:
-        """The rows of the last whole `periods`, by default those that the program judged.
+        """The rows of the last whole periods of the excitation.
 
         The window is half open: its first sample follows its start by one sample, so it holds exactly
-        ``periods * samples_per_period`` rows, as a spectrum needs them. `with_start` adds the row at its
-        start, as a picture of the whole window needs it.
+        ``periods * samples_per_period`` rows, as a spectrum needs them.
+
+        Parameters
+        ----------
+        periods
+            How many, by default those that the program judged.
+        with_start
+            Whether the row at its start is added, as a picture of the whole window needs it.
+
+        Returns
+        -------
+        rows
+            The slice of rows.
+
+        Raises
+        ------
+        ResultError
+            The file holds fewer periods.
         """
         if periods is None:
             periods = self.window_periods
@@ -257,6 +362,16 @@ class Result(ResultFile):
 
 def read(path: str | Path) -> Result:
     """Open a result file.
+
+    Parameters
+    ----------
+    path
+        The file, NAME.rattle.
+
+    Returns
+    -------
+    result
+        Its columns, mapped from the file.
 
     Raises
     ------

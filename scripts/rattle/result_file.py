@@ -59,15 +59,20 @@ class ColumnMapping(Mapping[str, np.ndarray], dict[str, np.ndarray]):
 
 
 class ResultFile(ColumnMapping):
-    """A result file of any kind: its place, its columns by name, and what its header shows.
+    """A result file of any kind: its place, its columns by name, and what its header has.
 
     Attributes
     ----------
-    path : where the file stands
-    header : what stands before the rows
-    names, units : column names in order, and their units
-    closed : False when the run was killed, or still runs
-    program_version, input_text : as written by the program
+    header
+        What the file has before the rows.
+    path
+        Where the file is.
+    names, units
+        Column names in order, and the unit of each by its name.
+    closed
+        False when the run was killed, or still runs.
+    program_version, input_text
+        As written by the program.
     """
 
     def __init__(self, path: Path, header: ResultHeader) -> None:
@@ -89,14 +94,30 @@ class ResultFile(ColumnMapping):
         return len(self.names)
 
     def check_column(self, name: str) -> str:
-        """The name of a column; refuse a name that is no column."""
+        """The name of a column; refuse a name that is no column.
+
+        Parameters
+        ----------
+        name
+            The name.
+
+        Returns
+        -------
+        name
+            The same.
+
+        Raises
+        ------
+        ResultError
+            There is no such column.
+        """
         if name not in self:
             raise ColumnError(f"{self.path} has no column '{name}'; it holds {', '.join(self.names)}.")
         return name
 
     @cached_property
     def input(self) -> dict[str, dict[str, Any]]:
-        """The resolved input: group, key, value."""
+        """The resolved input, by group and key."""
         try:
             groups = parse(self.input_text)
             # What follows from &gear, &shaft and &oil; a sweep or campaign may vary what it follows from.
@@ -115,7 +136,23 @@ class ResultFile(ColumnMapping):
         return {(group, key): unit for group, key, _, unit in DERIVED.findall(self.input_text)}
 
     def value(self, group: str, key: str) -> Any:
-        """One value of the resolved input."""
+        """One value of the resolved input.
+
+        Parameters
+        ----------
+        group, key
+            Names of its group and key.
+
+        Returns
+        -------
+        value
+            As the input has it.
+
+        Raises
+        ------
+        ResultError
+            There is no such key.
+        """
         try:
             return self.input[group][key]
         except KeyError:
@@ -137,7 +174,18 @@ class ResultFile(ColumnMapping):
         return str(self.value("scene", "task")).strip()
 
     def require_task(self, task: str) -> None:
-        """Raise ResultError, with the command that draws this result, if it is that of another task."""
+        """Refuse the result of another task, and name the command that draws it.
+
+        Parameters
+        ----------
+        task
+            The task that it has to be of.
+
+        Raises
+        ------
+        ResultError
+            It is of another task.
+        """
         if self.task != task:
             drawn_by = f"; 'plot.py {self.task}' draws it" if self.task in DRAWN else ""
             raise ResultError(f"{self.path} is not a {task} but the result of task = '{self.task}'{drawn_by}.")

@@ -42,10 +42,10 @@ Input = str | Path | Mapping[str, Group | Sequence[Group]]
 
 
 class Solved(NamedTuple):
-    """What a run left; `result` is None where no series was asked for."""
+    """What a run left."""
 
-    result: Result | Campaign | None
-    summary: dict[str, Any]
+    result: Result | Campaign | None  #: `Campaign` of a campaign; None where no series was asked for
+    summary: dict[str, Any]  #: what the summary holds, SI units
 
     def to_dataframe(self) -> pandas.DataFrame:
         """The summary as a pandas DataFrame of one row; that of the result is `result.to_dataframe()`."""
@@ -57,9 +57,9 @@ class Solved(NamedTuple):
 
 
 class Gearbox(dict[str, Solved]):
-    """What each gear pair of an input left, by its name; `summary` has the table of all, None for sweeps."""
+    """What each gear pair of an input left, by its name."""
 
-    summary: dict[str, Any] | None = None
+    summary: dict[str, Any] | None = None  #: table of all pairs, None for sweeps
 
     def to_dataframe(self) -> pandas.DataFrame:
         """The summaries as a pandas DataFrame, a row for each pair."""
@@ -76,7 +76,13 @@ class Gearbox(dict[str, Solved]):
 
 
 class SceneFailed(RunError):
-    """The scene did not reach its end; `solved` has what there is of it."""
+    """The scene did not reach its end.
+
+    Attributes
+    ----------
+    solved
+        What there is of it.
+    """
 
     def __init__(self, solved: Solved) -> None:
         status, words = solved.summary.get("status", "failed"), solved.summary.get("status_text", "")
@@ -86,12 +92,12 @@ class SceneFailed(RunError):
 
 @dataclass(frozen=True)
 class Range:
-    """A varied key of a campaign from `first` to `last`; `count` values of it on a grid."""
+    """A varied key of a campaign, from one value to another."""
 
-    first: float
-    last: float
-    count: int | None = None
-    scale: str = "linear"
+    first: float  #: in the unit of the key
+    last: float  #: in the unit of the key
+    count: int | None = None  #: values on a grid; None: a sample has its own number
+    scale: str = "linear"  #: or 'logarithmic'
 
     @property
     def values(self) -> np.ndarray:
@@ -112,26 +118,40 @@ def run(
     threads: int | None = None,
     program: str | Path | None = None,
 ) -> Solved | Gearbox:
-    """Solve one input and return its result and its summary; of several gear pairs a `Gearbox` by gear.
+    """Solve one input and return its result and its summary.
+
+    An interruption from the keyboard is handed to the program, which saves the state that `resume` needs.
 
     Parameters
     ----------
-    input : a file, namelist text, or a dict of groups of keys, of several &gear as a list
-    set : keys with the values that they get instead of those of the input, as 'group.key' or by group;
-        'gear' means all pairs of the input, 'gear(2)' its second
-    folder : where the files go; None: a temporary one that lives as long as the result
-    overwrite : whether files of an earlier run in `folder` may be replaced
-    resume : whether an earlier run in `folder` is carried on
-    threads : threads of a campaign, by default all cores
-    program : the program, by default the one of this installation
+    input
+        A file, namelist text, or a dict of groups of keys, of several &gear as a list.
+    set
+        Keys with the values that they get instead of those of the input, as 'group.key' or by group; 'gear'
+        means all pairs of the input, 'gear(2)' its second.
+    folder
+        Where the files go; None: a temporary one that lives as long as the result.
+    overwrite
+        Whether files of an earlier run in `folder` may be replaced.
+    resume
+        Whether an earlier run in `folder` is carried on.
+    threads
+        Threads of a campaign, by default all cores.
+    program
+        The program, by default the one of this installation.
+
+    Returns
+    -------
+    solved
+        Result and summary; of several gear pairs a `Gearbox`, which has them by gear.
 
     Raises
     ------
     InputError
         Bad input, nothing was run; `faults` names file, line, group and key of each.
     SceneFailed
-        A motion that did not reach its end. Sweeps and campaigns have it in their columns of status, a
-        `Gearbox` in its summaries.
+        A motion that did not reach its end. Sweeps, campaigns and thresholds have a column `status`
+        instead, a `Gearbox` has it in its summaries.
     RunError
         Everything else, such as a full disk.
 
@@ -140,7 +160,11 @@ def run(
     InputWarning
         What is odd about the input, such as a number that was surely meant in another unit.
 
-    An interruption from the keyboard is handed to the program, which saves the state that `resume` needs.
+    Examples
+    --------
+    >>> result, summary = rattle.run("input/idle.nml", set={"load.mass": 3.0})
+    >>> print(summary["rattle_class"])
+    idle
     """
     command = [str(program or find_program())]
     text = text_of(input)
@@ -189,7 +213,46 @@ def sweep(
     turn: bool | None = None,
     **options: Any,
 ) -> Solved | Gearbox:
-    """Follow steady motions along a key; None: as the input has it. `options` are those of `run`."""
+    """Follow steady motions along a key; an argument that is None is as the input has it.
+
+    Parameters
+    ----------
+    input
+        A file, namelist text, or a dict of groups of keys, of several &gear as a list.
+    key
+        Name of the key without its group, as 'frequency'.
+    first, last
+        Range of the key, in its unit.
+    set
+        Keys with the values that they get instead of those of the input, as 'group.key' or by group; 'gear'
+        means all pairs of the input, 'gear(2)' its second.
+    count
+        Number of values.
+    spacing
+        'linear' or 'logarithmic'.
+    turn
+        Whether the sweep also goes back.
+    **options
+        Other arguments of `run`: folder, overwrite, resume, threads and program.
+
+    Returns
+    -------
+    solved
+        Result, a row for each value, and summary; of several gear pairs a `Gearbox`.
+
+    Raises
+    ------
+    InputError
+        Bad input, nothing was run; `faults` names file, line, group and key of each.
+    RunError
+        Everything else, such as a full disk.
+
+    Examples
+    --------
+    >>> down = rattle.sweep("input/sweep.nml", "frequency", 250.0, 300.0, count=11)
+    >>> len(down.result["frequency"])
+    21
+    """
     given = {"key": key, "first": first, "last": last, "count": count, "spacing": spacing, "turn": turn}
     asked = {f"sweep.{name}": value for name, value in given.items() if value is not None}
     return run(input, set={"scene.task": "sweep", **asked, **(set or {})}, **options)
@@ -206,10 +269,49 @@ def campaign(
     seed: int | None = None,
     **options: Any,
 ) -> Solved:
-    """Solve many motions that differ in some keys.
+    """Solve many motions that differ in some keys; an argument that is None is as the input has it.
 
-    `vary` maps 'group.key' to a `Range` or to values; what is None is as the input has it. `options` are
-    those of `run`.
+    Parameters
+    ----------
+    input
+        A file, namelist text, or a dict of groups of keys, of several &gear as a list.
+    vary
+        Maps 'group.key' to a `Range` or to values; None: as the input has it.
+    set
+        Keys with the values that they get instead of those of the input, as 'group.key' or by group; 'gear'
+        means all pairs of the input, 'gear(2)' its second.
+    record
+        Names of the quantities that the result has.
+    sample
+        'grid' for all combinations, 'sobol' for a sample of the ranges.
+    size
+        Scenes of a sample.
+    seed
+        Seed of a sample: the same seed gives the same scenes everywhere.
+    **options
+        Other arguments of `run`: folder, overwrite, resume, threads and program.
+
+    Returns
+    -------
+    solved
+        `Campaign`, a row for each scene, and summary.
+
+    Raises
+    ------
+    InputError
+        Bad input, nothing was run; `faults` names file, line, group and key of each.
+    RunError
+        Everything else, such as a full disk.
+
+    Examples
+    --------
+    >>> vary = {
+    ...     "load.mass": rattle.Range(2.0, 4.0, 3),
+    ...     "kinematics.entrainment_speed": [1.0, 2.0],
+    ... }
+    >>> solved = rattle.campaign("input/map.nml", vary, record=["rattle_class"])
+    >>> solved.result.shape
+    (3, 2)
     """
     given = {"record": record, "sample": sample, "size": size, "seed": seed}
     asked = {f"campaign.{name}": value for name, value in given.items() if value is not None}
@@ -231,9 +333,45 @@ def threshold(
     tolerance: float | None = None,
     **options: Any,
 ) -> Solved:
-    """Find where along a key a motion changes, for each of the scenes of `vary`; None: as the input has it.
+    """Find where along a key a motion changes, for each scene of `vary`; None: as the input has it.
 
-    `vary` is that of `campaign`, `options` are those of `run`.
+    Parameters
+    ----------
+    input
+        A file, namelist text, or a dict of groups of keys, of several &gear as a list.
+    key
+        The key along which is searched, as 'load.force_amplitude'.
+    first, last
+        Range of the key, in its unit.
+    set
+        Keys with the values that they get instead of those of the input, as 'group.key' or by group; 'gear'
+        means all pairs of the input, 'gear(2)' its second.
+    vary
+        Maps 'group.key' to a `Range` or to values; None: as the input has it.
+    criterion
+        What changes: 'class', 'impacts', one class, or the name of a quantity.
+    level
+        Value of the quantity that is the criterion, in its unit.
+    scale
+        'linear' or 'logarithmic'.
+    count
+        Points that are scanned.
+    tolerance
+        Largest width of a bracket, a share of the range [-].
+    **options
+        Other arguments of `run`: folder, overwrite, resume, threads and program.
+
+    Returns
+    -------
+    solved
+        Result, a row for each change between `lower` and `upper`, and summary.
+
+    Raises
+    ------
+    InputError
+        Bad input, nothing was run; `faults` names file, line, group and key of each.
+    RunError
+        Everything else, such as a full disk.
     """
     given = {"key": key, "first": first, "last": last, "criterion": criterion, "level": level, "scale": scale}
     given |= {"count": count, "tolerance": tolerance}

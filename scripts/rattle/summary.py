@@ -33,11 +33,31 @@ class SummaryError(Exception):
 
 
 def read_summary(path: str | Path) -> dict[str, Any]:
-    """The keys of a ``NAME.summary.nml``; what the run does not know is not in it.
+    """Read a ``NAME.summary.nml``.
 
-    That of a gearbox has the rows of its table as `gears`: the keys of each pair by its name. A summary that
-    does not belong to the results beside it is refused: a run was killed between the two, or files were
-    moved.
+    That of a gearbox has the rows of its table as `gears`: the keys of each pair by its name.
+
+    Parameters
+    ----------
+    path
+        The file.
+
+    Returns
+    -------
+    summary
+        Its keys, SI units; what the run does not know is not in it.
+
+    Raises
+    ------
+    SummaryError
+        The file is absent, damaged or no summary, or does not belong to the results beside it: a run was
+        killed between the two, or files were moved.
+
+    Examples
+    --------
+    >>> solved = rattle.run("input/idle.nml", folder=folder)
+    >>> rattle.read_summary(folder / "idle.summary.nml") == solved.summary
+    True
     """
     path = Path(path)
     try:

@@ -28,18 +28,25 @@ def variants(given: Mapping[str, Given]) -> pandas.DataFrame:
 
     Parameters
     ----------
-    given : by name, the first the base: what `run`, `campaign`, `sweep` or `threshold` returned, a result, or
-        the path of a result or summary (of a gearbox NAME.summary.nml, or a list of the paths of its pairs)
+    given
+        By name, the first the base: what `run`, `campaign`, `sweep` or `threshold` returned, a result, or
+        the path of a result or summary (of a gearbox NAME.summary.nml, or a list of the paths of its
+        pairs).
 
     Returns
     -------
-    Of motions a row for each key of the input that differs and for each quantity of the answer, by `variant`,
-    `gear` (empty: all alike) and `part` ('input', 'follows', 'answer', 'together'): values and their stated
-    errors, `change`, `percent`, `decibel`, and `same`, whether the two differ by no more than the errors.
-    Of campaigns, sweeps and thresholds a row for each variant and set of values of the keys that both have,
-    with each quantity of base (NAME_base) and variant (NAME), and whether they are the same (NAME_same).
+    frame
+        Of motions a row for each key of the input that differs and for each quantity of the answer, by
+        `variant`, `gear` (empty: all alike) and `part` ('input', 'follows', 'answer', 'together'): values
+        and their stated errors, `change`, `percent`, `decibel`, and `same`, whether the two differ by no
+        more than the errors. Of campaigns, sweeps and thresholds a row for each variant and set of values
+        of the keys that both have, with each quantity of base (NAME_base) and variant (NAME), and whether
+        they are the same (NAME_same).
 
-    Raises CommandError where they cannot be compared.
+    Raises
+    ------
+    CommandError
+        The results cannot be compared; one plain sentence.
     """
     pandas = needed("pandas")
     base, *others = variants_of(given)

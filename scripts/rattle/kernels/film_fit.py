@@ -32,8 +32,8 @@ class LawError(NamedTuple):
 class FilmFit(NamedTuple):
     """A least-squares law; where the points do not determine it, the one of least norm."""
 
-    law: FilmLaw
-    error: LawError
+    law: FilmLaw  #: the fitted coefficients
+    error: LawError  #: its residuals on the points
     singular_values: np.ndarray  #: of the design matrix with columns of unit length, falling, four of them
     condition: float  #: ratio of the first to the last of them
     rank: int  #: number of coefficients that the points determine

@@ -26,21 +26,17 @@ DEGREE = 5
 
 @dataclass(frozen=True)
 class ShaftAngle:
-    """The angle [rad] of a shaft at times [s]; both ascend strictly.
+    """The angle of a shaft over time; both ascend strictly."""
 
-    `error` [rad] is the estimated standard error of an angle, `notes` are sentences for the user. `marked`:
-    the angle 0 is a mark of the wheel (the tooth behind its gap), not where the recording begins.
-    """
-
-    time: np.ndarray
-    angle: np.ndarray
-    notes: list[str]
-    error: float
-    marked: bool = False
+    time: np.ndarray  #: [s]
+    angle: np.ndarray  #: [rad]
+    notes: list[str]  #: sentences for the user
+    error: float  #: estimated standard error of an angle [rad]
+    marked: bool = False  #: the angle 0 is a mark of the wheel, not where the recording begins
 
     @property
     def revolutions(self) -> float:
-        """What the recording spans."""
+        """What the recording spans [revolutions]."""
         return float(self.angle[-1] - self.angle[0]) / TURN
 
     @property
@@ -49,15 +45,48 @@ class ShaftAngle:
         return 60.0 * self.revolutions / float(self.time[-1] - self.time[0])
 
     def at(self, time: ArrayLike) -> np.ndarray:
-        """Angle [rad] at times [s], not a number outside the recording."""
+        """Angle at given times.
+
+        Parameters
+        ----------
+        time
+            Times [s].
+
+        Returns
+        -------
+        angle
+            [rad], not a number outside the recording.
+        """
         return self._angle_over_time(np.asarray(time, dtype=float), extrapolate=False)
 
     def times(self, angle: ArrayLike) -> np.ndarray:
-        """Times [s] at angles [rad], not a number outside the recording."""
+        """Times at given angles.
+
+        Parameters
+        ----------
+        angle
+            Angles [rad].
+
+        Returns
+        -------
+        time
+            [s], not a number outside the recording.
+        """
         return self._time_over_angle(np.asarray(angle, dtype=float), extrapolate=False)
 
     def speed(self, angle: ArrayLike) -> np.ndarray:
-        """Speed [rad/s] at angles [rad], not a number outside the recording."""
+        """Speed at given angles.
+
+        Parameters
+        ----------
+        angle
+            Angles [rad].
+
+        Returns
+        -------
+        speed
+            [rad/s], not a number outside the recording.
+        """
         slope = self._time_over_angle.derivative()
         return 1.0 / slope(np.asarray(angle, dtype=float), extrapolate=False)
 
@@ -79,11 +108,33 @@ def shaft_angle(
     bridge: float = BRIDGE,
     mend: bool = False,
 ) -> ShaftAngle:
-    """The angle of a shaft from a channel, by its unit if no `kind` is given.
+    """The angle of a shaft from a channel.
 
-    `angle`: deg, rad or rev, rising or wrapped. `tacho`: pulses; `pulses_per_revolution` counts the missing
-    ones too, 60 with `missing_teeth` 2 for a wheel 60-2. `speed`: rpm, rad/s or Hz, integrated. Gaps are
-    bridged up to `bridge` [s] and refused beyond; `mend` takes spikes and drop-outs for gaps.
+    Parameters
+    ----------
+    channel
+        An angle, a speed or pulses.
+    kind
+        'angle': deg, rad or rev, rising or wrapped; 'tacho': pulses; 'speed': rpm, rad/s or Hz, integrated.
+        None: by the unit of the channel.
+    pulses_per_revolution
+        Pulses with the missing ones, 60 for a wheel 60-2.
+    missing_teeth
+        Missing ones, 2 for a wheel 60-2.
+    bridge
+        Gaps up to this length [s] are bridged, longer ones refused.
+    mend
+        Whether spikes and drop-outs are taken for gaps.
+
+    Returns
+    -------
+    shaft
+        Its angle with the error of it.
+
+    Raises
+    ------
+    RecordingError
+        The channel gives no angle that rises over a revolution or more.
     """
     kind = kind or kind_of(channel)
     if not channel.has_time and kind != "angle":
@@ -124,10 +175,30 @@ def angles_of(channel: Channel, shaft: ShaftAngle) -> tuple[np.ndarray, np.ndarr
 def resample_on_angle(
     channel: Channel, shaft: ShaftAngle, samples_per_revolution: int
 ) -> tuple[np.ndarray, np.ndarray, float]:
-    """The channel at equal angles [rad], multiples of their step, and the error of the interpolation.
+    """The channel at equal angles.
 
     A spline of degree 5 runs through the samples over their angle, so nothing is filtered: take at least as
-    many samples a revolution as the recording has. The error is the rms of `interpolation_error`.
+    many samples a revolution as the recording has.
+
+    Parameters
+    ----------
+    channel
+        What is resampled.
+    shaft
+        The angle over time.
+    samples_per_revolution
+        Samples of a revolution.
+
+    Returns
+    -------
+    angle, values, error
+        Angles [rad], multiples of their step; the channel there, in its unit; rms of the error of the
+        interpolation over that of what oscillates [-].
+
+    Raises
+    ------
+    RecordingError
+        Channel and shaft do not go together.
     """
     angle, values = angles_of(channel, shaft)
     step = TURN / samples_per_revolution

@@ -51,18 +51,14 @@ RATE = "samples a second of a file without times"
 
 @dataclass(frozen=True)
 class Channel:
-    """One channel: `values` in `unit` as recorded, at the times [s], which ascend strictly.
+    """One channel of a recording; its times ascend strictly."""
 
-    Values are not a number where the recording has a gap. `has_time` is False of a file without times, where
-    `time` counts samples and no speed can be found.
-    """
-
-    name: str
-    unit: str
-    time: np.ndarray
-    values: np.ndarray
-    source: str
-    has_time: bool = True
+    name: str  #: as the recording has it
+    unit: str  #: of the values, as recorded
+    time: np.ndarray  #: [s]; counts samples where the file has no times
+    values: np.ndarray  #: not a number where the recording has a gap
+    source: str  #: path of the file
+    has_time: bool = True  #: False of a file without times, from which no speed can be found
 
     @property
     def label(self) -> str:
@@ -70,7 +66,23 @@ class Channel:
         return f"{self.name} [{units.shown(self.unit)}]" if self.unit else self.name
 
     def within(self, unit: str) -> np.ndarray:
-        """The values in another unit."""
+        """The values in another unit.
+
+        Parameters
+        ----------
+        unit
+            Name of the unit.
+
+        Returns
+        -------
+        values
+            Converted.
+
+        Raises
+        ------
+        RecordingError
+            The unit is unknown, or of another dimension.
+        """
         return units.convert(self.values, self.unit, unit, self.name)
 
 
@@ -79,8 +91,24 @@ def read_channels(
 ) -> list[Channel]:
     """All channels of a recording: text (CSV), MDF, TDMS, UFF 58, MAT or HDF5.
 
-    `rate` [Hz] stands for times that the file does not have. What was made of the file is appended to
-    `notes`.
+    Parameters
+    ----------
+    path
+        The file.
+    rate
+        Sampling rate [Hz], for a file without times.
+    notes
+        What was made of the file is appended to it.
+
+    Returns
+    -------
+    channels
+        In the order of the file.
+
+    Raises
+    ------
+    RecordingError
+        The file cannot be used; file and line where known.
     """
     path = Path(path)
     messages = [] if notes is None else notes
@@ -109,7 +137,25 @@ def read_channels(
 
 
 def choose(channels: Sequence[Channel], name_or_number: str | int) -> Channel:
-    """The channel of a name, whatever its case, or of a number from 1 on as `recording.py list` counts."""
+    """The channel of a name or a number.
+
+    Parameters
+    ----------
+    channels
+        Channels of one file.
+    name_or_number
+        Its name, whatever its case, or its number from 1 on as `recording.py list` counts.
+
+    Returns
+    -------
+    channel
+        The one that is meant.
+
+    Raises
+    ------
+    RecordingError
+        There is none, or several.
+    """
     wanted = str(name_or_number).strip()
     for same in (
         lambda channel: channel.name == wanted,
@@ -131,7 +177,25 @@ def choose(channels: Sequence[Channel], name_or_number: str | int) -> Channel:
 
 
 def with_units(channels: Sequence[Channel], given: dict[str, str]) -> list[Channel]:
-    """The channels with the units that the user gives, by name or number."""
+    """The channels with units that the user gives.
+
+    Parameters
+    ----------
+    channels
+        Channels of one file.
+    given
+        Units by name or number of the channel.
+
+    Returns
+    -------
+    channels
+        The same values in these units.
+
+    Raises
+    ------
+    RecordingError
+        There is no such channel.
+    """
     changed = list(channels)
     for name, unit in given.items():
         place = [c is choose(channels, name) for c in channels].index(True)

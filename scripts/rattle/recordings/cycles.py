@@ -30,34 +30,28 @@ GROWTH, MOST_GROWTH = 30.0, 100.0
 
 @dataclass(frozen=True)
 class MeanCycle:
-    """The mean of whole cycles at equal angles, and its harmonics: a cos(order angle + phase).
+    """The mean of whole cycles at equal angles, and its harmonics: a cos(order angle + phase)."""
 
-    `angle` [rad] begins with 0. `amplitude_errors` and `phase_errors` [rad] are standard errors of the
-    means, not a number of a single cycle. `scatter` is the rms by which cycles differ from their mean over
-    the rms of what oscillates of it. `speed_range` [1/min] is that of the mean speeds of the cycles, `kept`
-    how many harmonics stand out of the scatter. `warnings` and `notes` are sentences for the user.
-    """
-
-    name: str
-    unit: str
-    angle: np.ndarray
-    values: np.ndarray
-    cycle_revolutions: int
-    cycles: int
-    left_out: float
-    mean: float
-    orders: np.ndarray
-    amplitudes: np.ndarray
-    phases: np.ndarray
-    amplitude_errors: np.ndarray
-    phase_errors: np.ndarray
-    scatter: float
-    speed_rpm: float
-    speed_range: tuple[float, float]
-    resampling_error: float
-    kept: int
-    notes: list[str]
-    warnings: list[str]
+    name: str  #: of the channel
+    unit: str  #: of the channel
+    angle: np.ndarray  #: equal angles of one cycle [rad], the first is 0
+    values: np.ndarray  #: the mean there
+    cycle_revolutions: int  #: revolutions of a cycle
+    cycles: int  #: whole cycles in the mean
+    left_out: float  #: what is in no whole cycle [revolutions]
+    mean: float  #: over the cycle
+    orders: np.ndarray  #: of the revolution
+    amplitudes: np.ndarray  #: of the orders
+    phases: np.ndarray  #: of the orders [rad]
+    amplitude_errors: np.ndarray  #: standard errors of the mean, not a number of a single cycle
+    phase_errors: np.ndarray  #: likewise [rad]
+    scatter: float  #: rms by which cycles differ from their mean over the rms of what oscillates of it
+    speed_rpm: float  #: mean speed [1/min]
+    speed_range: tuple[float, float]  #: of the mean speeds of the cycles [1/min]
+    resampling_error: float  #: rms error of the interpolation over that of what oscillates
+    kept: int  #: how many harmonics stand out of the scatter
+    notes: list[str]  #: sentences for the user
+    warnings: list[str]  #: sentences for the user
 
 
 def mean_cycle(
@@ -70,12 +64,39 @@ def mean_cycle(
     mend: bool = False,
     bridge: float = BRIDGE,
 ) -> MeanCycle:
-    """Average the whole cycles of a steady channel, or without one of the speed of the shaft itself [1/min].
+    """Average the whole cycles of a steady channel.
 
-    The channel is resampled onto equal angles, at least as dense as it was recorded, by a spline of degree 5;
-    after the mean is taken, orders that `samples_per_revolution` cannot hold are cut off in its spectrum, so
-    none is folded back. `derivative`: the signal is a speed, of which rattle takes the derivative, so that
-    its orders count by their accelerations.
+    The channel is resampled onto equal angles, at least as dense as it was recorded, by a spline of degree
+    5; after the mean is taken, orders that `samples_per_revolution` cannot hold are cut off in its
+    spectrum, so none is folded back.
+
+    Parameters
+    ----------
+    channel
+        What is averaged; None: the speed of the shaft itself [1/min].
+    shaft
+        The angle over time.
+    cycle_revolutions
+        Revolutions of a cycle, 2 of a four-stroke engine.
+    samples_per_revolution
+        Samples of the mean in a revolution.
+    derivative
+        Whether the signal is a speed, of which rattle takes the derivative, so that its orders count by
+        their accelerations.
+    mend
+        Whether spikes and drop-outs are taken for gaps.
+    bridge
+        Gaps up to this length [s] are bridged, longer ones refused.
+
+    Returns
+    -------
+    cycle
+        The mean with the errors of its harmonics.
+
+    Raises
+    ------
+    RecordingError
+        The channel is constant, too short, too coarse or has gaps.
     """
     length = TURN * cycle_revolutions
     if channel is None:
