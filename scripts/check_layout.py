@@ -13,7 +13,7 @@ from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 os.chdir(Path(__file__).resolve().parents[1])
-MODULES = re.search(r"(?<=^MODULES := ).+", Path("Makefile").read_text(), re.MULTILINE)[0].split()
+MODULES = " ".join(re.findall(r"(?<=^MODULES := ).+", Path("Makefile").read_text(), re.MULTILINE)).split()
 MODULES.append("bindings")
 TABLE = re.findall(r"^\| `(\w+)/` \|", Path("fsrc/README.md").read_text(), re.MULTILINE)
 TOP_LEVEL = {"Makefile", "fsrc", "input", "scripts", "tests", "README.md"}
@@ -109,9 +109,10 @@ def faults() -> list[str]:
             place = f"{path}:{number}"
             if (module := MODULE.match(line)) and folder != "bindings" and module[1].lower() != path.stem:
                 found.append(f"{place}: module {module[1]} stands in a file of another name")
-            other = home.get(use[1].lower()) if (use := USE.match(line)) else None
+            used = use[1] if (use := USE.match(line)) else ""
+            other = home.get(used.lower(), "")
             if other in MODULES and MODULES.index(other) > MODULES.index(folder):
-                found.append(f"{place}: {folder} uses {use[1]} of {other}, a folder below it")
+                found.append(f"{place}: {folder} uses {used} of {other}, a folder below it")
             if STOP.match(line):
                 found.append(f"{place}: a library routine stops the program")
     found += [*law_faults(sources), *flank_faults(sources)]
@@ -163,7 +164,7 @@ def import_circles() -> Iterator[str]:
         for path in folder.rglob("rattle/**/*.py")
     }
     modules = {name.removesuffix(".__init__"): path for name, path in paths.items()}
-    needs = {}
+    needs: dict[str, set[str]] = {}
     for name, path in modules.items():
         needs[name] = set()
         for node in ast.walk(ast.parse(path.read_text())):

@@ -34,6 +34,7 @@ check 'release: version, changelog, citation' "$tools/python" scripts/check_rele
 check 'style of Fortran' "$tools/fortitude" check --config .fortitude.toml fsrc tests
 check 'format of Fortran and Python' formatted
 check 'style of Python' "$tools/ruff" check scripts tests
+check 'types of Python' "$tools/mypy" --cache-dir "$build/lint/mypy"
 check 'links of pages' "$tools/python" scripts/check_links.py
 check 'pages: sentences, paragraphs, idioms, terms' "$tools/python" scripts/check_pages.py
 check 'messages: idioms' "$tools/python" scripts/list_messages.py --idioms

@@ -4,10 +4,16 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rattle import command, outputs, table
 from rattle.comparison.variant import grouped
+
+if TYPE_CHECKING:
+    from rattle.sound.track import Heard
+    from rattle.sound.transfer import Transfer
 
 SHORTEST, LONGEST = 0.2, 600.0  # seconds
 CLIPPED = 1.0
@@ -66,7 +72,7 @@ def rows(found: list) -> list[list[str]]:
     return lines
 
 
-def remarks(found: list, function, scale: float) -> list[str]:
+def remarks(found: Sequence[Heard], function: Transfer, scale: float) -> list[str]:
     """What has to be known of the sound."""
     words = []
     if not function.calibrated:

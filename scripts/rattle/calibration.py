@@ -11,10 +11,12 @@ import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 from scipy import optimize, stats
 
+from rattle.campaign_result import Campaign
 from rattle.codes import CODES, QUANTITIES
 from rattle.command import CommandError
 from rattle.solve import campaign
@@ -151,12 +153,13 @@ class Model:
             points = Path(folder) / "points.csv"
             lines = np.column_stack((speeds, temperatures, values)).tolist()
             points.write_text("\n".join([head, *(",".join(map(repr, line)) for line in lines), ""]))
-            rows = campaign(self.input, record=[self.column], set={"campaign.csv": str(points)}).result
+            solved = campaign(self.input, record=[self.column], set={"campaign.csv": str(points)})
+        rows = cast(Campaign, solved.result)
         if rows.gears and self.gear not in rows.gears:
             raise CommandError(f"{self.input} has the pairs {', '.join(rows.gears)}: choose one by --gear.")
         if self.gear is not None and not rows.gears:
             raise CommandError(f"{self.input} has one pair; leave out --gear.")
-        if rows.gears:
+        if self.gear is not None:
             rows = rows.pair(self.gear)
         if np.any(rows.failed):
             self.notes.add("Some scenes of the fit failed; they are left out.")
@@ -231,7 +234,7 @@ def fit_thresholds(model: Model, span: tuple[float, float]) -> Fit:
     Each point has a value at which its motion changes, here called its limit. What was heard says on which
     side of it the true value lies.
     """
-    logs = np.linspace(*np.log(span), SCAN)
+    logs = np.linspace(np.log(span[0]), np.log(span[1]), SCAN)
     states = np.isin(model.everywhere(np.exp(logs)[:, None]), model.rattling)
     notes = set()
     changes = np.sum(states[1:] != states[:-1], axis=0)

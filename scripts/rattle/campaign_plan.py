@@ -62,8 +62,8 @@ def read_plan(input_text: str) -> Plan:
     axes = tuple(_axis(group, starts, i, str(key).strip()) for i, key in sorted(keys.items()))
     if gears:
         axes = (PlannedAxis(GEAR, LISTED, np.arange(1.0, len(gears) + 1.0)), *axes)
-    sizes = [None if axis.values is None else axis.values.size for axis in axes]
-    count = math.prod(sizes) if axes and None not in sizes else None
+    sizes = [axis.values.size for axis in axes if axis.values is not None]
+    count = math.prod(sizes) if axes and len(sizes) == len(axes) else None
     return Plan(GRID, axes, count, part, parts, gears)
 
 
@@ -98,7 +98,7 @@ def _axis(group: Mapping[str, Any], starts: Mapping[str, Any], index: int, key: 
     if listed is not None:
         return PlannedAxis(key, LISTED, listed)
     scale = _scale(group, starts, index)
-    ends = [_indexed(group, starts, name).get(index) for name in ("first", "last", "count")]
+    ends: list[Any] = [_indexed(group, starts, name).get(index) for name in ("first", "last", "count")]
     if not all(isinstance(end, int | float) for end in ends):
         return PlannedAxis(key, scale, None)
     first, last, count = float(ends[0]), float(ends[1]), int(ends[2])

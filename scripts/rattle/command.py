@@ -13,6 +13,7 @@ import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from rattle.campaign_result import Campaign
 from rattle.faults import InputWarning
 from rattle.result import Result, ResultError
 from rattle.result_file import ResultFile
@@ -50,7 +51,7 @@ def run(main: Callable[[], int | None]) -> None:
     except OSError as fault:
         place = f"{fault.filename}: " if fault.filename else ""
         code = complain(f"{place}{fault.strerror or fault}.")
-    except UnicodeError as fault:
+    except (UnicodeDecodeError, UnicodeEncodeError) as fault:
         words = fault.object if isinstance(fault.object, str) else repr(fault.object)
         code = complain(f"'{readable(words)[:200]}' cannot be read or written as text ({fault.reason}).")
     except ImportError as fault:
@@ -102,7 +103,7 @@ def note(sentence: str) -> None:
     print(f"{Path(sys.argv[0]).name}: {sentence}", file=sys.stderr)
 
 
-def note_open(result: Result) -> None:
+def note_open(result: Result | Campaign) -> None:
     """Warn the user that a result is not closed, or that the summary beside it is of another run."""
     if not result.closed:
         note(f"{result.path} is not closed; its {result.row_count} complete rows are used.")

@@ -48,7 +48,7 @@ def read_csv_table(path: Path, example: str) -> CsvTable:
     CommandError
         Each fault with file and line, in the words of the program.
     """
-    from rattle import _kernels
+    import rattle._kernels as _kernels
 
     place = os.fsencode(path)
     counts, faults, *found = _kernels.wrap_read_csv(place, example, 1, 1)
@@ -73,7 +73,7 @@ def read_csv_table(path: Path, example: str) -> CsvTable:
 
 def _unit_of(head: str, below: str, needed: str) -> tuple[str, str, np.ndarray, str]:
     """Name without unit; the unit; factor and what is added behind; why nothing makes the unit needed."""
-    from rattle import _kernels
+    import rattle._kernels as _kernels
 
     name, unit, conversion, fault = _kernels.wrap_column_unit(head.encode(), below.encode(), needed)
     return _decoded(name), _decoded(unit), conversion, _decoded(fault)

@@ -30,8 +30,11 @@ ROUNDS = 8
 CLOSE = 0.05  # of an interval: a fit that moves by less has come to its end
 BACKLASH, INERTIA = "gear.backlash", "gear.loose_inertia"
 # By flank: what is compared, and the unit in which it is shown.
-COMPARED = (("impacts a period", "impacts_per_period", 1.0), ("approach [mm/s]", "velocity", 1e3))
-COMPARED += (("restitution", "restitution", 1.0),)
+COMPARED = (
+    ("impacts a period", "impacts_per_period", 1.0),
+    ("approach [mm/s]", "velocity", 1e3),
+    ("restitution", "restitution", 1.0),
+)
 
 
 @dataclass(frozen=True)
@@ -86,6 +89,7 @@ def fit_encoders(input: Path, recorded: Mapping[str, Any], gear: str | None = No
                 f"With {_words(values)} the computed motion has no impacts on both flanks, as the measured "
                 "one has: check oil, inertia and the orders of the shaft."
             )
+        play_seen, deceleration = asdict(seen.play), asdict(seen.deceleration)
         longer = play["value"] - seen.play.value
         more = ratio["value"] - seen.deceleration.value / lever
         values = {BACKLASH: values[BACKLASH] + longer, drag: values[drag] + more * inertia / unit}
@@ -98,8 +102,8 @@ def fit_encoders(input: Path, recorded: Mapping[str, Any], gear: str | None = No
     else:
         notes.append(f"The fit has not converged after {ROUNDS} rounds: the computed motion is not regular.")
     # Both the measured and the computed motion are known to an interval.
-    half_play = 0.5 * math.hypot(_width(play), _width(asdict(seen.play)))
-    half = 0.5 * math.hypot(_width(ratio), _width(asdict(seen.deceleration)) / lever)
+    half_play = 0.5 * math.hypot(_width(play), _width(play_seen))
+    half = 0.5 * math.hypot(_width(ratio), _width(deceleration) / lever)
     per_inertia = unit * values[drag] / inertia
     notes += [
         f"Drag over inertia is {per_inertia:.4g} 1/s2; flights give this ratio alone. {drag} is that of "
@@ -156,7 +160,8 @@ def solved(
         "output.stride": 1,
     }
     found = run(input, set=asked | dict(settings))
-    result = (found[gear] if isinstance(found, Gearbox) else found).result
+    result = (found[gear or ""] if isinstance(found, Gearbox) else found).result
+    assert result is not None, "a series is asked for"
     numbers = derived(input, gear=gear, set=dict(settings))
     mass, steady, frequency = (float(numbers[f"load.{key}"]) for key in ("mass", "steady_force", "frequency"))
     part = slice(SETTLING * SAMPLES, None)

@@ -69,7 +69,7 @@ class InputWarning(UserWarning):
         super().__init__(line)
         (fault,) = read_faults(line)
         named = _ODD_KEY.match(fault.message)
-        self.fault = fault._replace(**named.groupdict()) if named else fault
+        self.fault = fault._replace(group=named["group"], key=named["key"]) if named else fault
 
 
 def warn(lines: Iterable[str]) -> None:

@@ -6,7 +6,7 @@ import errno
 import os
 import stat
 import tempfile
-from argparse import ArgumentParser
+from argparse import _ActionsContainer
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
@@ -18,7 +18,7 @@ Writer = Callable[[Path], None]
 NO_LINKS = (errno.EPERM, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOSYS, errno.EMLINK, errno.EXDEV)
 
 
-def add_option(parser: ArgumentParser) -> None:
+def add_option(parser: _ActionsContainer) -> None:
     """The option of every script that writes."""
     parser.add_argument("--overwrite", action="store_true", help="replace files that are there already")
 

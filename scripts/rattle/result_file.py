@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copyreg
 import os
 import re
 from collections.abc import Iterator, Mapping
@@ -10,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
@@ -32,7 +31,15 @@ def _refuse(*_: object, **__: object) -> NoReturn:
     raise TypeError("A result cannot be changed; dict(result) is a mapping that can.")
 
 
-class ColumnMapping(Mapping[str, np.ndarray], dict[str, np.ndarray]):
+if TYPE_CHECKING:
+
+    class _Dict:
+        """Nothing: for a checker of types the columns are a Mapping and no dict."""
+else:
+    _Dict = dict
+
+
+class ColumnMapping(Mapping[str, np.ndarray], _Dict):
     """A read-only mapping that computes its values; a dict, but by type alone, since pandas asks for one.
 
     As a dict it is empty: all methods are those of Mapping.
@@ -55,7 +62,12 @@ class ColumnMapping(Mapping[str, np.ndarray], dict[str, np.ndarray]):
         return reversed(list(self))
 
     def __reduce_ex__(self, _: object) -> tuple[object, ...]:
-        return copyreg.__newobj__, (type(self),), self.__dict__
+        return _made, (type(self),), self.__dict__
+
+
+def _made(kind: type[ColumnMapping]) -> ColumnMapping:
+    """An instance that gets its attributes afterwards, as copy and pickle make it."""
+    return kind.__new__(kind)
 
 
 class ResultFile(ColumnMapping):
@@ -83,6 +95,9 @@ class ResultFile(ColumnMapping):
         self.closed = header.closed
         self.program_version = header.program_version
         self.input_text = header.input_text
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        raise NotImplementedError("each kind of file has its rows in another way")
 
     def __contains__(self, name: object) -> bool:
         return name in self.units

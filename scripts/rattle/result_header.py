@@ -189,7 +189,8 @@ def read_header(stream: BinaryIO, path: object) -> ResultHeader:
         ending = "" if str(path).endswith(".rattle") else ", which is called NAME.rattle"
         raise ResultError(f"{path} is not a rattle result file{ending}.")
     if len(fixed) >= 16:
-        _check_encoding(*struct.unpack("<ii", fixed[8:16]), path)
+        version, mark = struct.unpack("<ii", fixed[8:16])
+        _check_encoding(version, mark, path)
     if len(fixed) < FIXED_PART.size:
         raise ResultError(f"{path} ends inside its header.")
     (_, _, _, header_bytes, row_count, column_count, input_bytes, program, source, stored, seal) = (

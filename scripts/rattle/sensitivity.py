@@ -246,4 +246,5 @@ def _probability(campaign: Campaign, size: int) -> tuple[float, float, float] | 
     share = float(np.mean(np.array(campaign["verdict"], dtype=float)[usable] >= LEAST_IMPACTS))
     centre = share + NORMAL**2 / (2 * count)
     half = NORMAL * np.sqrt(share * (1.0 - share) / count + NORMAL**2 / (4 * count**2))
-    return share, *(float((centre + side * half) / (1.0 + NORMAL**2 / count)) for side in (-1.0, 1.0))
+    low, high = (float((centre + side * half) / (1.0 + NORMAL**2 / count)) for side in (-1.0, 1.0))
+    return share, low, high

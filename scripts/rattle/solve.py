@@ -11,7 +11,7 @@ import weakref
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
@@ -315,7 +315,9 @@ def campaign(
     """
     given = {"record": record, "sample": sample, "size": size, "seed": seed}
     asked = {f"campaign.{name}": value for name, value in given.items() if value is not None}
-    return run(input, set={"scene.task": "campaign", **asked, **_varied(vary), **(set or {})}, **options)
+    settings = {"scene.task": "campaign", **asked, **_varied(vary), **(set or {})}
+    # All pairs of an input are rows of one campaign.
+    return cast(Solved, run(input, set=settings, **options))
 
 
 def threshold(
@@ -376,7 +378,8 @@ def threshold(
     given = {"key": key, "first": first, "last": last, "criterion": criterion, "level": level, "scale": scale}
     given |= {"count": count, "tolerance": tolerance}
     asked = {f"threshold.{name}": value for name, value in given.items() if value is not None}
-    return run(input, set={"scene.task": "threshold", **asked, **_varied(vary), **(set or {})}, **options)
+    settings = {"scene.task": "threshold", **asked, **_varied(vary), **(set or {})}
+    return cast(Solved, run(input, set=settings, **options))
 
 
 def find_program() -> str:

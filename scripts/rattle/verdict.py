@@ -49,13 +49,12 @@ def judge_samples(
     from rattle import kernels
 
     samples = result.samples("acceleration", result.window(periods))
-    limits = thresholds(result, overrides)
+    limits: dict[str, Any] = {**forced(result), **thresholds(result, overrides)}
     try:
         found = kernels.classify(
             samples,
             result.samples_per_period,
             orbit_period=result.orbit_period,
-            **forced(result),
             **limits,
         )
         # Samples alone do not show whether neighbouring motions diverge; the program has followed them.

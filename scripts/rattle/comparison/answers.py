@@ -45,7 +45,7 @@ def answer_differences(base: Variant, variant: Variant) -> Iterator[Difference]:
                     "together",
                     name,
                     unit,
-                    *(side.together.get(name) for side in sides),
+                    *((side.together or {}).get(name) for side in sides),
                     *(_error_together(side, name) for side in sides),
                 )
 
@@ -74,9 +74,9 @@ def _error_together(side: Variant, name: str) -> float | None:
     """Error of what all pairs add up to, where each has one; of forces in phase none is known."""
     pairs = [solved.summary for solved in side.pairs.values()]
     quantity = POWER if name == POWER else "film_force_rms"
-    errors = [summary.get(quantity + ERROR) for summary in pairs]
-    total = side.together.get(name)
-    if name == IN_PHASE or None in errors or not total:
+    errors = [summary[quantity + ERROR] for summary in pairs if quantity + ERROR in summary]
+    total = (side.together or {}).get(name)
+    if name == IN_PHASE or len(errors) < len(pairs) or not total:
         return None
     if name == POWER:
         return math.fsum(errors)

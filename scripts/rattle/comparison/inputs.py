@@ -22,8 +22,10 @@ def input_differences(base: Variant, variant: Variant) -> list[Difference]:
     found: list[Difference] = []
     pairs = [pair for pair in paired(base, variant) if None not in (pair.base.result, pair.other.result)]
     for pair in pairs:
-        one, other = (_values(side.result) for side in (pair.base, pair.other))
-        units = {**_units(pair.base.result), **_units(pair.other.result)}
+        first, second = pair.base.result, pair.other.result
+        assert first is not None and second is not None
+        one, other = _values(first), _values(second)
+        units = {**_units(first), **_units(second)}
         for key in {**one, **other}:
             part = "follows" if key in units else "input"
             unit = units.get(key) or _unit(key)

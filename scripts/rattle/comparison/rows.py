@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -128,8 +129,8 @@ def compared_rows(base: Variant, variant: Variant) -> Compared:
         raise CommandError(
             f"{base.name} and {variant.name} have no value of {', '.join(one.keys)} in common."
         )
-    rows = tuple(np.array([table.places[key] for key in common]) for table in (one, other))
-    return Compared(one, other, rows)
+    first, second = (np.array([table.places[key] for key in common]) for table in (one, other))
+    return Compared(one, other, (first, second))
 
 
 def table_of(variant: Variant) -> Table:
@@ -201,5 +202,5 @@ def _with_words(columns: Mapping[str, np.ndarray], failed: np.ndarray) -> dict[s
     return found
 
 
-def _key_words(value: object) -> str:
+def _key_words(value: Any) -> str:
     return value if isinstance(value, str) else f"{float(value):.{KEY_DIGITS}g}"

@@ -8,15 +8,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from rattle.campaign_result import read_campaign
+from rattle.campaign_result import Campaign, read_campaign
 from rattle.command import CommandError
-from rattle.result import MOTIONS_ENDING, PROFILES_ENDING, read
-from rattle.result_file import ResultFile
+from rattle.result import MOTIONS_ENDING, PROFILES_ENDING, Result, read
 from rattle.solve import Gearbox, Solved
 from rattle.summary import ENDING, Summary, read_summary
 
 COMPARED = ("motion", "sweep", "campaign", "threshold")
-Given = Solved | Gearbox | ResultFile | str | Path | Iterable[str | Path]
+Given = Solved | Gearbox | Result | Campaign | str | Path | Iterable[str | Path]
 
 
 @dataclass(frozen=True)
@@ -32,7 +31,7 @@ class Variant:
     together: Summary | None = None
 
     @property
-    def results(self) -> list[ResultFile]:
+    def results(self) -> list[Result | Campaign]:
         return [solved.result for solved in self.pairs.values() if solved.result is not None]
 
     @property
@@ -69,7 +68,7 @@ def compared(variants: list[Variant]) -> list[Variant]:
         raise CommandError(f"Results of {', '.join(COMPARED)} are compared, not of {tasks[0]}.")
     base = variants[0]
     for solved in (one for variant in variants for one in variant.pairs.values()):
-        if tasks[0] == "motion" and not solved.summary:
+        if tasks[0] == "motion" and solved.result is not None and not solved.summary:
             raise CommandError(f"No summary stands beside {solved.result.path}: its answer is not known.")
     for variant in variants:
         if len(base.pairs) * len(variant.pairs) > 1 and not {*base.pairs} & {*variant.pairs}:
@@ -85,8 +84,8 @@ def grouped(paths: Sequence[Path]) -> list[Variant]:
             continue  # they are parts of the result beside them
         place, variant = _of_file(path)
         (gear,) = variant.pairs if len(variant.pairs) == 1 else [None]
-        if found and gear and found[-1][0] == place and gear not in found[-1][1].pairs:
-            last = found[-1][1]
+        last = found[-1][1] if found and found[-1][0] == place else None
+        if last and last.together and gear and gear not in last.pairs:
             name = str(last.together["name"]).strip()
             found[-1] = place, replace(last, name=name, pairs={**last.pairs, **variant.pairs})
         else:
@@ -99,7 +98,7 @@ def _variant(name: str, given: Given) -> Variant:
         return Variant(name, dict(given), given.summary)
     if isinstance(given, Solved):
         return Variant(name, {_gear_of(given.summary): given})
-    if isinstance(given, ResultFile):
+    if isinstance(given, Result | Campaign):
         path = given.summary_path
         solved = Solved(given, read_summary(path) if path.exists() else {})
         return Variant(name, {_gear_of(solved.summary): solved})
@@ -107,7 +106,7 @@ def _variant(name: str, given: Given) -> Variant:
         raise CommandError(
             f"{name} is a {type(given).__name__}; a variant is what rattle.run returned, a result, or a path."
         )
-    paths = [given] if isinstance(given, str | Path) else list(given)
+    paths: list[Any] = [given] if isinstance(given, str | Path) else list(given)
     found = grouped([Path(path) for path in paths])
     if len(found) != 1:
         raise CommandError(f"{name} is {len(found)} variants; the paths of one are needed.")
@@ -121,8 +120,8 @@ def _of_file(path: Path) -> tuple[Path, Variant]:
         stem = path.name.removesuffix(ENDING)
         if "gears" in summary:
             return path, Variant(stem, dict(_pairs_of(path, stem, summary)), summary)
-        result = path.with_name(f"{stem}.rattle")
-        solved = Solved(_opened(result) if result.exists() else None, summary)
+        beside = path.with_name(f"{stem}.rattle")
+        solved = Solved(_opened(beside) if beside.exists() else None, summary)
     else:
         result = _opened(path)
         path = result.summary_path
@@ -146,7 +145,7 @@ def _pairs_of(path: Path, stem: str, table: Summary) -> Iterator[tuple[str, Solv
         yield gear, Solved(_opened(result) if result.exists() else None, read_summary(summary))
 
 
-def _opened(path: Path) -> ResultFile:
+def _opened(path: Path) -> Result | Campaign:
     result = read(path)
     return read_campaign(path) if result.task == "campaign" else result
 

@@ -136,7 +136,8 @@ def levers(groups: Groups, ranges: Mapping[str, tuple[float, float]]) -> list[Le
         now = value_of(groups, kind.key)
         if now is None or (kind.needs and not value_of(groups, kind.needs)):
             continue
-        along = tuple((key, value_of(groups, key)) for key in kind.along)
+        others = ((other, value_of(groups, other)) for other in kind.along)
+        along = tuple((other, value) for other, value in others if value is not None)
         found.append(_lever(kind, kind.key, now, ranges, along=along))
     for group, orders, name, words in LISTS:
         given = groups.get(group, {})

@@ -7,7 +7,7 @@ import shutil
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import f90nml
 
@@ -70,8 +70,7 @@ class Together:
 
     def change_db(self, before: Together) -> tuple[float, float]:
         """By how much both sums change."""
-        sums = ((self.uncorrelated, before.uncorrelated), (self.in_phase, before.in_phase))
-        return tuple(decibels(*both) for both in sums)
+        return decibels(self.uncorrelated, before.uncorrelated), decibels(self.in_phase, before.in_phase)
 
 
 @dataclass(frozen=True)
@@ -90,7 +89,7 @@ class Scene:
         """The scene with some keys changed; `FAILED` where it does not reach its end."""
         quiet = {"output.series": False}
         try:
-            return answer(run(self.path, set=quiet | dict(settings)).summary)
+            return answer(cast(Solved, run(self.path, set=quiet | dict(settings))).summary)
         except SceneFailed:
             return FAILED
 
@@ -169,7 +168,7 @@ def opened(path: Path, folder: Path) -> Scenes:
         summary = solved.summary
         name = str(summary.get("gear", "")).strip() or str(summary["name"]).strip()
         return _scenes(path, whole, {name: solved}, {name: whole})
-    alone = {}
+    alone: dict[str, Path] = {}
     for name, gear in zip(solved, gears, strict=True):
         del groups["gear"]
         groups["gear"] = gear
@@ -188,7 +187,7 @@ def _scenes(path: Path, whole: Path, solved: Mapping[str, Solved], alone: Mappin
                 f"{path}: {name} does not reach its end as it is now: nothing to compare with."
             )
         scenes.append(Scene(name, alone[name], parse(result.input_text), now))
-    if isinstance(solved, Gearbox):
+    if isinstance(solved, Gearbox) and solved.summary:
         return Scenes(str(solved.summary["name"]).strip(), whole, tuple(scenes), _together(solved))
     (only,) = scenes
     name = str(solved[only.name].summary["name"]).strip()

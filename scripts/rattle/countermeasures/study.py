@@ -160,7 +160,7 @@ def _measure(scene: Scene, lever: Lever) -> Measure:
 def _end(scene: Scene, found: Trace, left: Set[int]) -> End | None:
     """The nearest value at which every motion has a verdict of `left`, solved again with all starts."""
     lever, end = found.lever, None
-    windows = [tuple(map(float, map(lever.place_of, window))) for window in found.calm(left)]
+    windows = [(float(lever.place_of(low)), float(lever.place_of(high))) for low, high in found.calm(left)]
     for near, far in ways(windows, float(lever.place_of(lever.now))):
         for inside in sorted({min(margin, 0.5 * abs(far - near)) for margin in MARGINS}):
             value = lever.value_at(near + math.copysign(inside, far - near))
@@ -189,29 +189,28 @@ def _together(scenes: Scenes, pairs: Sequence[PairStudy]) -> list[BoxMeasure]:
     found = []
     for name in names:
         chosen = [
-            (number, pair, measure)
+            (number, pair, measure.lever, *measure.best)
             for number, pair in enumerate(pairs, 1)
             for measure in pair.measures
             if measure.lever.name == name and measure.best
         ]
         if not chosen:
             continue
-        if chosen[0][2].lever.is_of_pair:
+        if chosen[0][2].is_of_pair:
             settings = {
                 key.replace("gear.", f"gear({number})."): value
-                for number, _, measure in chosen
-                for key, value in measure.lever.settings(measure.best[1].value).items()
+                for number, _, lever, _, end in chosen
+                for key, value in lever.settings(end.value).items()
             }
         else:
             # One value for all: that which needs most, on the side that calms more pairs.
-            ends = [measure.best[1] for _, _, measure in chosen]
-            side = 1.0 if sum(math.copysign(1.0, end.share) for end in ends) >= 0.0 else -1.0
-            chosen = [one for one in chosen if one[2].best[1].share * side >= 0.0]
-            most = max((measure for _, _, measure in chosen), key=lambda one: abs(one.best[1].share))
-            settings = most.lever.settings(most.best[1].value)
+            side = 1.0 if sum(math.copysign(1.0, one[4].share) for one in chosen) >= 0.0 else -1.0
+            chosen = [one for one in chosen if one[4].share * side >= 0.0]
+            _, _, lever, _, end = max(chosen, key=lambda one: abs(one[4].share))
+            settings = lever.settings(end.value)
         result = scenes.solve(settings)
         confirmed = all(
-            result.pairs[pair.name].verdict in TARGETS[measure.best[0]] for _, pair, measure in chosen
+            result.pairs[pair.name].verdict in TARGETS[target] for _, pair, _, target, _ in chosen
         )
         found.append(BoxMeasure(name, settings, result, confirmed))
     return sorted(found, key=lambda one: (rattling(one.result), _force(one.result)))

@@ -100,8 +100,10 @@ def _followed(scene: Scene, lever: Lever) -> Trace:
         tolerance=TOLERANCE,
         set={**SEARCH, lever.key: lever.last},
     ).result
+    assert rows is not None, "a threshold always leaves its table"
     has_ends = "last_below" in rows
-    changes, others, first_verdict = [], None, UNKNOWN
+    changes: list[Change] = []
+    others, first_verdict = None, UNKNOWN
     for place in range(rows.row_count):
         row = {name: float(rows[name][place]) for name in rows.names}
         codes = [row[f"verdict_{side}"] for side in ("below", "above")]

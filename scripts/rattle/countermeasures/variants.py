@@ -47,7 +47,7 @@ def read(path: Path, scenes: Scenes) -> list[Variant]:
     keys = [name for name in head if name not in (NAME, COST)]
     if NAME not in head or not keys or len(set(head)) < len(head):
         raise CommandError(f"{path}: the head '{','.join(head)}' needs {NAME} and keys, each once.")
-    found = []
+    found: list[Variant] = []
     for number, row in lines[1:]:
         if len(row) != len(head):
             raise CommandError(f"{path}, line {number}: {len(row)} values for {len(head)} columns.")

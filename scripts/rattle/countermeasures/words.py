@@ -111,11 +111,10 @@ def first_up(words: str) -> str:
 
 
 def _best_effort(pair: PairStudy) -> list[str]:
-    tried = [measure for measure in pair.measures if measure.effort]
+    tried = [(measure, *measure.effort) for measure in pair.measures if measure.effort]
     if not tried:
         return []
-    best = min(tried, key=lambda measure: measure.effort[1].force)
-    value, answer = best.effort
+    best, value, answer = min(tried, key=lambda one: one[2].force)
     gain = gain_words(-answer.change_db(pair.now), answer.error_db(pair.now))
     return [
         f"Of an effort of a tenth each, {best.lever.name} to {change_words(best.lever, value)} "

@@ -46,8 +46,8 @@ def moving_pictures(result: Result, label: str) -> Writer:
 def _picture(result: Result, label: str, periods: int) -> tuple[Figure, Callable[[float], None]]:
     """The figure, and what moves it to a share of its periods."""
     time, films = last_periods(result, FILM, periods, 1e6)
-    backlash = result.input.get("contact", {}).get("backlash")
-    both = bool(backlash)
+    backlash = result.input.get("contact", {}).get("backlash") or 0.0
+    both = backlash > 0.0
     gap = 1e6 * backlash if both else 1.6 * films.max()
     shown = profiles.profiles_of(result)
     figure = Figure(figsize=(style.WIDTH, 5.4 if shown else 3.4), dpi=INCH_DOTS)
@@ -60,7 +60,8 @@ def _picture(result: Result, label: str, periods: int) -> tuple[Figure, Callable
         left, right = figure.subplots(1, 2, width_ratios=(2, 3))
     tooth, oil = _gap(left, gap, both)
     loads = [name for name in FLANK_LOADS if name in result]
-    curves = dict(zip(loads, ("drive flank", "coast flank"), strict=False)) or {"acceleration": None}
+    curves: dict[str, str | None] = dict(zip(loads, ("drive flank", "coast flank"), strict=False))
+    curves = curves or {"acceleration": None}
     for (name, words), line in zip(curves.items(), FLANK_LINES, strict=False):
         right.plot(*last_periods(result, name, periods), label=words, **line)
     right.set_ylabel(LOAD_LABEL if loads else style.of_acceleration(style.ACCELERATION_LABEL, [result]))

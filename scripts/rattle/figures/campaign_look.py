@@ -305,7 +305,7 @@ def set_axis(axes: Axes, which: str, axis: Axis, *, to_edges: bool) -> None:
 def plain_log_ticks(target: MatplotlibAxis, low: float, high: float) -> None:
     """Ticks such as 0.5, 1, 2, 5 on a short logarithmic axis; powers of ten on a long one."""
     decades = np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
-    steps = (1.0, 2.0, 5.0) if high / low < 300.0 else (1.0,)
+    steps: tuple[float, ...] = (1.0, 2.0, 5.0) if high / low < 300.0 else (1.0,)
     ticks = [step * 10.0**decade for decade in decades for step in steps]
     if sum(low <= tick <= high for tick in ticks) < 3:
         steps = (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0)

@@ -74,7 +74,7 @@ def _draw_classes_map(axes: Axes, campaign: Campaign) -> None:
     if "rattle_class" not in campaign:
         _say(axes, "rattle_class is not recorded")
         return
-    handles = []
+    handles: list = []
     if len(campaign.varied) < 2:
         _draw_single_key(axes, campaign, "rattle_class")
     elif campaign.kind == GRID:
@@ -84,7 +84,8 @@ def _draw_classes_map(axes: Axes, campaign: Campaign) -> None:
         if section.held:
             axes.set_title("Rattle class at\n" + textwrap.fill(section.words, 48), fontsize=8)
     else:
-        handles, _ = campaign_map.scatter(axes, campaign, *campaign.varied[:2], "rattle_class")
+        first, second = campaign.varied[:2]
+        handles, _ = campaign_map.scatter(axes, campaign, first, second, "rattle_class")
     if handles:
         _legend_below(axes, handles)
 
@@ -178,11 +179,11 @@ def _draw_statuses(axes: Axes, campaign: Campaign) -> None:
     if "status" not in campaign:
         _say(axes, "status is not recorded")
         return
-    codes, counts = np.unique(campaign["status"][campaign.done], return_counts=True)
+    codes, found = np.unique(campaign["status"][campaign.done], return_counts=True)
     names = [spoken(word("status", code)) for code in codes]
     colours = [BAR_COLOUR if code in SUCCESSES else FAILED_COLOUR for code in codes]
     left = campaign.row_count - int(campaign.done.sum())
-    counts = counts.tolist()
+    counts = found.tolist()
     if left:
         names, counts, colours = [*names, "not done"], [*counts, left], [*colours, look.GAP_COLOUR]
     _bars(axes, names, counts, colours)

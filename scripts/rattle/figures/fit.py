@@ -7,7 +7,7 @@ from argparse import Namespace
 from collections.abc import Sequence
 
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_agg import FigureCanvasAgg, RendererAgg
 from matplotlib.cbook import is_math_text
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
@@ -248,7 +248,7 @@ def _rows(words: str) -> int:
     return words.count("\n") + 1 if words else 0
 
 
-def _renderer(figure: Figure):
+def _renderer(figure: Figure) -> RendererAgg:
     return FigureCanvasAgg(figure).get_renderer()
 
 

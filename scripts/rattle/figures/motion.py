@@ -25,8 +25,8 @@ DESCRIPTION = (
 FLANKS = "flanks"
 PROFILES = "profiles"
 NUMBERS = (6, 7, 8, 9, 10, FLANKS, PROFILES)
-OF_PIEZO_VISCOUS = {9: "figure_09", 10: "figure_10b", FLANKS: FLANKS}
-OF_OTHERS = {
+OF_PIEZO_VISCOUS: dict[int | str, str] = {9: "figure_09", 10: "figure_10b", FLANKS: FLANKS}
+OF_OTHERS: dict[int | str, str] = {
     6: "figure_06",
     7: "figure_07",
     8: "figure_08",

@@ -136,12 +136,12 @@ def comparison(name: str, cuts: Cuts, measured: Cuts) -> list[str]:
     """By how much computed levels differ from measured ones, between the speeds that both have."""
     lines = []
     for order in measured.orders:
-        own = cuts.at(order)
-        if own is None:
+        own, heard = cuts.at(order), measured.at(order)
+        if own is None or heard is None:
             lines.append(f"{name}, order {order:g}: measured, not computed")
             continue
         differences = _level(np.interp(measured.speeds, cuts.speeds, own, left=np.nan, right=np.nan))
-        differences -= _level(measured.at(order))
+        differences -= _level(heard)
         differences = differences[np.isfinite(differences)]
         if not differences.size:
             lines.append(f"{name}, order {order:g}: no speed in common")
@@ -159,13 +159,15 @@ def draw(campaign: Campaign, cuts: Cuts, measured: Cuts | None) -> Figure:
     above, below = figure.subplots(2, 1)
     main = None if measured else _main_order(campaign, cuts)
     for place, order in enumerate(_chosen(campaign, cuts, measured)):
+        own = cuts.at(order)
+        assert own is not None, "chosen are computed orders"
         line = style.run_line(place)
         of_engine = ", main order of the engine" if order == main else ""
-        above.plot(cuts.speeds, _level(cuts.at(order)), label=f"order {order:g}{of_engine}", **line)
-        if measured is not None and measured.at(order) is not None:
+        above.plot(cuts.speeds, _level(own), label=f"order {order:g}{of_engine}", **line)
+        if measured is not None and (heard := measured.at(order)) is not None:
             look = {"linestyle": "none", "marker": "o", "markersize": 3.5, "markerfacecolor": "none"}
             label = f"order {order:g}, measured"
-            above.plot(measured.speeds, _level(measured.at(order)), color=line["color"], label=label, **look)
+            above.plot(measured.speeds, _level(heard), color=line["color"], label=label, **look)
     above.set_ylabel(LEVEL_LABEL)
     above.set_xlim(cuts.speeds[0], cuts.speeds[-1])
     above.set_xlabel("Shaft speed [1/min]")
@@ -217,9 +219,10 @@ def _main_order(campaign: Campaign, cuts: Cuts) -> float:
         re.search(rf"^! derived: load\.{name} = ([^N\n]+)", campaign.input_text, re.MULTILINE)
         for name in ("force_orders", "force_amplitudes")
     ]
-    if not all(found):
+    lists = [[float(value) for value in one[1].split(",")] for one in found if one]
+    if len(lists) < len(found):
         return cuts.orders[0]
-    harmonics, sizes = ([float(value) for value in one[1].split(",")] for one in found)
+    harmonics, sizes = lists
     return harmonics[int(np.argmax(np.abs(sizes)))] * cuts.orders[0]
 
 

@@ -282,7 +282,7 @@ def _last_harmonic(result: Result) -> float:
 def _frequency_label(results: Sequence[Result], view: View) -> str:
     """What the axis counts: harmonics where a force is given by several of them, if ratios are shown."""
     if view.frequency != "ratio":
-        return FREQUENCY_LABELS[view.frequency]
+        return FREQUENCY_LABELS[view.frequency or "ratio"]
     if not any(_harmonics_of_force(result).size for result in results):
         return style.RATIO_LABEL
     bases = {result.frequency for result in results}
@@ -329,10 +329,10 @@ def _last_ratio(result: Result, spectrum: tuple[np.ndarray, np.ndarray]) -> floa
     return math.ceil(max(*ends, min(faint.max(initial=0.0), LARGEST_FAINT_RATIO))) + 0.5
 
 
-def _forcing(result: Result) -> Sequence[float]:
+def _forcing(result: Result) -> np.ndarray:
     """Harmonics of the force, of a cosine the first."""
     of_force = _harmonics_of_force(result)
-    return of_force if of_force.size else [1.0]
+    return of_force if of_force.size else np.ones(1)
 
 
 def _least_counted(result: Result, spectrum: tuple[np.ndarray, np.ndarray]) -> float:

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 from matplotlib import patheffects
@@ -78,7 +79,7 @@ def house_style(salt: str = "rattle") -> Iterator[None]:
         yield
 
 
-def run_line(position: int) -> dict[str, object]:
+def run_line(position: int) -> dict[str, Any]:
     """Colour and dashes of the run at `position` in an overlay of as many runs as there are colours."""
     return {
         "color": RUN_COLOURS[position],

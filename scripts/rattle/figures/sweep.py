@@ -192,7 +192,7 @@ def label_of(name: str, results: Sequence[Result]) -> str:
 
 
 def _draw_single(result: Result, all_axes: Mapping[str, Axes]) -> dict[str, object]:
-    handles = {}
+    handles: dict[str, object] = {}
     for name, direction, colour, dashes in WAYS:
         rows = of_direction(result, direction)
         if rows.size == 0:
@@ -207,7 +207,7 @@ def _draw_single(result: Result, all_axes: Mapping[str, Axes]) -> dict[str, obje
 
 def _draw_overlay(results: Sequence[Result], all_axes: Mapping[str, Axes]) -> dict[str, object]:
     handles: dict[str, object] = {}
-    directions = {}
+    directions: dict[str, object] = {}
     for position, (result, label) in enumerate(zip(results, style.run_labels(results), strict=True)):
         look = {
             "color": style.RUN_COLOURS[position],

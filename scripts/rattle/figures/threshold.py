@@ -133,12 +133,11 @@ def draw(
     if len(free) == 1:
         handles = draw_points(axes, found, free[0], section)
     elif min(axis.values.size for axis in free) <= MOST_CURVES:
-        handles = draw_curves(
-            axes, found, *sorted(free, key=lambda axis: (axis.key == GEAR, -axis.values.size)), crossing
-        )
+        along, other = sorted(free, key=lambda axis: (axis.key == GEAR, -axis.values.size))
+        handles = draw_curves(axes, found, along, other, crossing)
     else:
         crossing = crossing or 1
-        handles = draw_surface(figure, axes, found, *free[:2], crossing)
+        handles = draw_surface(figure, axes, found, free[0], free[1], crossing)
     if handles:
         figure.legend(handles=handles, loc="outside lower center", ncols=3)
     what = words_of_criterion(found)
@@ -164,7 +163,7 @@ def ordinal(number: int) -> str:
 
 def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | None) -> list:
     """Every crossing over one key, a colour for each kind of change; returns legend entries."""
-    handles = []
+    handles: list = []
     if section is None:
         look.set_axis(axes, "x", axis, to_edges=False)
         set_range(axes, found, np.concatenate((found.values, *found.ends)))
@@ -297,7 +296,8 @@ def draw_curves(axes: Axes, found: Thresholds, along: Axis, other: Axis, crossin
         label = f"{short_name(other.key)} {found.words_of_value(other.key, value)}"
         mark = {"marker": style.RUN_MARKS[place], "markersize": 3.0}
         line = style.run_line(place)
-        draw_bars(axes, x[chosen], *(found.column(end)[chosen] for end in ("lower", "upper")), line["color"])
+        lower, upper = (found.column(end)[chosen] for end in ("lower", "upper"))
+        draw_bars(axes, x[chosen], lower, upper, line["color"])
         draw_either(axes, found, along, chosen, line["color"])
         shade(axes, found, along, own, line["color"])
         kinds = dict.fromkeys(found.kinds[chosen])

@@ -8,7 +8,7 @@ from __future__ import annotations
 import functools
 import inspect
 from collections.abc import Callable, Collection, Mapping
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
@@ -30,7 +30,7 @@ def elementwise(declared: Declared) -> Declared:
     def call(*arguments: Any, **named: Any) -> Any:
         return evaluate(declared.__name__, signature.bind(*arguments, **named).arguments)
 
-    return call
+    return cast(Declared, call)
 
 
 def evaluate(kernel: str, values: Mapping[str, Any]) -> Any:

@@ -186,7 +186,7 @@ def sample_film_window(
     for name, pair in (("film_ratio", film_ratio), ("squeeze_ratio", squeeze_ratio), ("alpha_p", alpha_p)):
         if not isinstance(pair, tuple) or len(pair) != 2:
             raise TypeError(f"{name} must be a tuple of its least and its largest value")
-        ranges += [finite_numbers(**{name: value}) for value in pair]
+        ranges += [finite_numbers((), **{name: value}) for value in pair]
     counts = [
         positive_count(film_count, "film_count"),
         positive_count(squeeze_count, "squeeze_count"),

@@ -149,4 +149,5 @@ def solve_reynolds(
     )
     if status >= len(REYNOLDS_STATUS):
         raise ValueError("a group or a constant of the viscosity law is outside its range")
-    return ReynoldsFilm(REYNOLDS_STATUS[status], int(iterations), *results.tolist(), angle, pressure)
+    numbers = dict(zip(ReynoldsFilm._fields[2:6], results.tolist(), strict=True))
+    return ReynoldsFilm(REYNOLDS_STATUS[status], int(iterations), **numbers, angle=angle, pressure=pressure)

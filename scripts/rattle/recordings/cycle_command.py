@@ -84,6 +84,7 @@ def measure(arguments: argparse.Namespace, notes: list[str]) -> tuple[cycles.Mea
     signal = _signal(arguments, channels, reference)
     quantity = signals.SPEED
     if signal is None:
+        assert reference is not None, "without a signal the speed of a reference is meant"
         shaft = options.angle_of(arguments, reference)
         notes.append(f"the signal is the speed of the shaft, from the angle by '{reference.name}'.")
     else:

@@ -207,14 +207,15 @@ def run(arguments: argparse.Namespace) -> int:
         lines = arguments.lines[place] if arguments.lines else None
         shafts.append(_encoder(choose(recorded, name), lines, arguments))
         notes += [note for note in shafts[-1].notes if note not in notes]
-    motion, shaft = relative_motion(*shafts, geometry, period_order, notes)
+    driver, loose = shafts
+    motion, shaft = relative_motion(driver, loose, geometry, period_order, notes)
     found = look(motion)
-    recorded = as_dict(found, shaft, geometry, period_order, motion.step, arguments.temperature)
-    text = json.dumps(recorded, indent=2) + "\n"
+    numbers = as_dict(found, shaft, geometry, period_order, motion.step, arguments.temperature)
+    text = json.dumps(numbers, indent=2) + "\n"
     outputs.write(
         [(arguments.output, outputs.text_writer(text))], overwrite=arguments.overwrite, inputs=arguments.files
     )
-    print(table.plain(cells(recorded)))
+    print(table.plain(cells(numbers)))
     print(*notes, *words(found, shaft, period_order), arguments.output, sep="\n")
     return command.COMPLETE
 
@@ -240,7 +241,8 @@ def _pair(arguments: argparse.Namespace) -> tuple[Geometry, float]:
         raise RecordingError("give either --input FILE.nml with the pair, or --base-radii R1,R2.")
     if arguments.base_radii is not None:
         helix = math.radians(arguments.base_helix_deg)
-        return Geometry(*arguments.base_radii, helix), arguments.period_order or 1.0
+        driver, loose = arguments.base_radii
+        return Geometry(driver, loose, helix), arguments.period_order or 1.0
     try:
         found = derived(arguments.input, gear=arguments.gear)
     except RunError as fault:
@@ -287,8 +289,13 @@ def as_dict(
 
 
 def _scaled(estimate: Estimate, factor: float) -> Estimate:
-    numbers = (factor * number for number in (estimate.value, estimate.low, estimate.high, estimate.scatter))
-    return Estimate(*numbers, estimate.count)
+    return Estimate(
+        factor * estimate.value,
+        factor * estimate.low,
+        factor * estimate.high,
+        factor * estimate.scatter,
+        estimate.count,
+    )
 
 
 def cells(recorded: dict[str, Any]) -> list[list[str]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -128,10 +129,12 @@ def look(motion: Motion) -> Flights:
         drives, coasts = _contacts(motion, smooth, drift, low, play.value, edges)
     draw = np.random.default_rng(0)
     decelerations = -_accelerations((smooth - drift - low) / play.value, motion, edges)
+    drive, coast = (_flank(found, play.value, count, draw) for found in (drives, coasts))
     return Flights(
         count,
         play,
-        *(_flank(found, play.value, count, draw) for found in (drives, coasts)),
+        drive,
+        coast,
         _mean(decelerations, draw) if len(decelerations) >= LEAST_EVENTS else None,
         is_double,
         float(np.ptp(drift)),
@@ -151,7 +154,7 @@ def _smoothed(values: np.ndarray, noise: float, edges: np.ndarray) -> tuple[np.n
     return signal.savgol_filter(values, window, 2), window
 
 
-def _extremes(values: np.ndarray, edges: np.ndarray, which) -> np.ndarray:
+def _extremes(values: np.ndarray, edges: np.ndarray, which: Callable[[np.ndarray], np.intp]) -> np.ndarray:
     """The sample of the extreme of each period."""
     return np.array([begin + which(values[begin:end]) for begin, end in zip(edges, edges[1:], strict=False)])
 
@@ -286,9 +289,11 @@ def _flank(contacts: list[Contact], play: float, periods: int, draw: np.random.G
     rebound = play * np.array([contact.rebound for contact in contacts])
     picks = draw.integers(len(contacts), size=(DRAWS, len(contacts)))
     ratios = np.sum(rebound[picks], axis=1) / np.sum(approach[picks], axis=1)
+    low, high = map(float, np.quantile(ratios, _tails()))
     restitution = Estimate(
         float(np.sum(rebound) / np.sum(approach)),
-        *map(float, np.quantile(ratios, _tails())),
+        low,
+        high,
         float(np.std(rebound / approach)),
         len(contacts),
     )

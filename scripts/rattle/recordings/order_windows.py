@@ -197,8 +197,8 @@ def waterfall(
     phase: np.ndarray, values: np.ndarray, course: Course, highest: float, reach: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Speeds [rad/s], orders and amplitudes: a Hann window of the angle about each of some speeds."""
-    ends = np.sort([course.speed[0], course.speed[-1]])
-    speeds = np.linspace(*ends, WATERFALL_ROWS)
+    first, last = np.sort([course.speed[0], course.speed[-1]])
+    speeds = np.linspace(first, last, WATERFALL_ROWS)
     centres = course.at_speed(speeds)
     inside = (centres > phase[0] + reach) & (centres < phase[-1] - reach)
     speeds, centres = speeds[inside], centres[inside]

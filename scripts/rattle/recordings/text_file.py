@@ -55,7 +55,9 @@ def read_text(path: Path, notes: list[str]) -> list[Raw]:
     names, given = _heads(path, layout, kept, lines, notes)
     numbers, table, clocks = _table(path, layout, kept[layout.first :], names)
     time_at = _time_column(path, names, given, table, clocks, notes)
-    time = None if time_at is None else _seconds(table[time_at], given[time_at], names[time_at])
+    time = None
+    if time_at is not None and (clock := table[time_at]) is not None:
+        time = _seconds(clock, given[time_at], names[time_at])
     left_out = [names[place] for place, column in table.items() if column is None]
     if left_out:
         notes.append(f"{path}: columns of words are left out: {', '.join(left_out[:9])}.")
@@ -278,15 +280,15 @@ def _table(
             f"{path}, line {line}: it has more than the {layout.columns} columns of the others."
         )
     table: dict[int, np.ndarray | None] = {}
-    clocks = set()
-    for place in range(layout.columns):
-        table[place] = None
-        if place not in layout.words:
-            table[place] = _clock(frame[place])
-            if table[place] is not None:
-                clocks.add(place)
+    clocks: set[int] = set()
+    for column in range(layout.columns):
+        table[column] = None
+        if column not in layout.words:
+            table[column] = _clock(frame[column])
+            if table[column] is not None:
+                clocks.add(column)
             else:
-                table[place] = _column(path, frame[place], names[place], numbers, layout.decimal)
+                table[column] = _column(path, frame[column], names[column], numbers, layout.decimal)
     return numbers, table, clocks
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -52,7 +52,8 @@ def report(paths: Sequence[Path], *, brief: bool = False, limits: Limits | None 
         name, box = next(iter(boxes.items()))
         title = f"Rattle of {name}"
         parts = {name: part(result, name, limits) for result, name in zip(results, names, strict=True)}
-        body = [page.heading(1, title), *gearbox.page_of_box(results, box, limits, parts)]
+        pairs = [result for result in results if isinstance(result, Result)]
+        body = [page.heading(1, title), *gearbox.page_of_box(pairs, box, limits, parts)]
         return page.document(title, body, brief=brief)
     title = f"Rattle of {names[0]}" if len(names) == 1 else f"Rattle of {len(names)} results"
     what = page.OF_THRESHOLDS if {result.task for result in results} == {"threshold"} else page.OF_MOTIONS
@@ -75,25 +76,24 @@ def opened(path: Path) -> ResultFile:
 def part(result: ResultFile, name: str, limits: Limits) -> list[str]:
     """All that is said of one result."""
     if isinstance(result, Campaign):
-        parts = campaign_part(result)
+        seen, folds = campaign_part(result)
     elif isinstance(result, Result) and result.row_count == 0:
-        parts = ([page.paragraph("This result holds no row.", "note")], [])
+        seen, folds = [page.paragraph("This result holds no row.", "note")], []
     elif isinstance(result, Result) and result.path.name.endswith(MOTIONS_ENDING):
-        parts = table_part(result)
+        seen, folds = table_part(result)
     elif isinstance(result, Result):
-        makers = {
+        makers: dict[str, Callable[[Result], Parts]] = {
             "motion": partial(motion_part, limits=limits),
             "sweep": sweep_part,
             "threshold": threshold_part,
             "film": film_part,
         }
-        parts = makers.get(result.task, table_part)(result)
+        seen, folds = makers.get(result.task, table_part)(result)
     unfinished = "This run was not finished when the page was written; what it had done by then is shown."
-    parts, folds = parts
     return [
         page.paragraph(asked.operating_point(result), "lead"),
         *([] if result.closed else [page.paragraph(unfinished, "note")]),
-        *parts,
+        *seen,
         *motion.odd_numbers(result),
         *page.appendix(
             [
@@ -152,9 +152,7 @@ def campaign_part(result: Campaign) -> Parts:
 def film_part(result: Result) -> Parts:
     choice = film_points.Choice(None, None)
     drawn = [
-        page.drawing(
-            lambda maker=maker: maker(result.path, choice), FILM_CAPTIONS[stem], f"{result.path.stem} {stem}"
-        )
+        page.drawing(partial(maker, result.path, choice), FILM_CAPTIONS[stem], f"{result.path.stem} {stem}")
         for _, stem, maker in film.FIGURES
     ]
     words = (

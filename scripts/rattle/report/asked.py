@@ -10,6 +10,7 @@ from urllib.parse import quote
 from rattle.campaign_result import Axis, Campaign
 from rattle.keys import key_table
 from rattle.report import page
+from rattle.result import Result
 from rattle.result_file import ResultFile
 from rattle.thresholds import thresholds
 
@@ -54,7 +55,8 @@ def in_short(result: ResultFile) -> str:
         varied.add(result.names[0])
     if result.task == "threshold":
         varied.add(str(result.value("threshold", "key")).strip().rpartition(".")[2])
-    parts, results = pairs(result), []
+    parts = pairs(result)
+    results: list[str] = []
     for group, name, words in (*DRIVEN, *IN_SHORT):
         given = result.input.get(group, {}).get(name)
         if given is None or name in varied:
@@ -114,7 +116,7 @@ def varied_ranges(result: ResultFile) -> dict[str, tuple[float, float, str]]:
     """First and last value of what a task varies, with the unit, by group.key."""
     if isinstance(result, Campaign):
         axes = [axis for axis in result.axes if axis.values.size]
-    elif result.task == "threshold":
+    elif isinstance(result, Result) and result.task == "threshold":
         found = thresholds(result)
         axes = [found.range, *found.axes]
     elif result.task == "sweep":

@@ -217,12 +217,12 @@ def figures(campaign: Campaign) -> tuple[list[str], list[str]]:
         if alone.done.any()
     }
     names = [name for name in DRAWN if name in campaign][:MOST_SEEN]
-    drawn = {name: drawn_column(campaign, name) for name in names}
+    columns = {name: drawn_column(campaign, name) for name in names}
     return [
         page.drawing(
-            partial(campaign_map.draw_pairs, sections, [drawn[name]], campaign_map.Options()),
+            partial(campaign_map.draw_pairs, sections, [columns[name]], campaign_map.Options()),
             caption(list(sections.values()), name),
-            f"{campaign.name} pairs {drawn[name]}",
+            f"{campaign.name} pairs {columns[name]}",
             "main" if name == names[0] else "",
         )
         for name in names

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -226,7 +228,9 @@ def _forces(base: Variant, others: Sequence[Variant]) -> dict[str, dict[str, flo
     return found if all(found.values()) else {}
 
 
-def _answer_table(entries: Sequence[Difference], others: Sequence[Variant], words: dict[str, str]) -> str:
+def _answer_table(
+    entries: Sequence[Difference], others: Sequence[Variant], words: Mapping[str, str | page.Cell]
+) -> str:
     """Rows by gear and quantity; of each variant its value and its change."""
     rows: dict[tuple[str, str, str], dict[str, Difference]] = {}
     for entry in entries:
@@ -245,12 +249,8 @@ def _answer_table(entries: Sequence[Difference], others: Sequence[Variant], word
             first = next(iter(of_variant.values()))
             line = [words[key[2]], _with_error(first.base, first.base_error, first.unit)]
             for other in others:
-                entry = of_variant.get(other.name)
-                line += (
-                    [_with_error(entry.value, entry.error, entry.unit), _change(entry)]
-                    if entry
-                    else ["-", "-"]
-                )
+                own = of_variant.get(other.name)
+                line += [_with_error(own.value, own.error, own.unit), _change(own)] if own else ["-", "-"]
             lines.append(line)
     heads = ["Quantity", "Base"]
     for other in others:
@@ -265,7 +265,7 @@ def _meanings(entries: Iterable[Difference]) -> dict[str, page.Cell]:
     }
 
 
-def _with_error(value: object, error: float | None, unit: str) -> page.Cell:
+def _with_error(value: Any, error: float | None, unit: str) -> page.Cell:
     if error is None or value is None or isinstance(value, str | bool):
         return _shown(value, unit)
     factor = next((factor for least, factor, _ in page.STEPS.get(unit, ()) if abs(value) >= least), 1.0)
@@ -456,7 +456,7 @@ def _maps(base: Variant, other: Variant) -> list[str]:
     columns = [look.loudest(one, name) for name in DRAWN if name in one and name in two]
     return [
         page.drawing(
-            lambda column=column: picture.draw_maps(one, two, column),
+            partial(picture.draw_maps, one, two, column),
             f"{look.capital(short_name(column))} of the base, {base.name}, and of the variant, {other.name}, "
             "in one scale, and what differs. What is not verified is hatched in the map of each alone.",
             f"{base.name} {other.name} {column}",

@@ -8,6 +8,7 @@ from rattle.codes import QUANTITIES
 from rattle.figures import ranks
 from rattle.report import asked, countermeasures, motion, page
 from rattle.report.limits import Limits
+from rattle.result import Result
 from rattle.result_file import ResultFile
 from rattle.summary import Summary, comparison_table, input_warnings, read_summary
 
@@ -24,11 +25,11 @@ SUMS = {
 
 
 def page_of_box(
-    results: Sequence[ResultFile], box: Summary, limits: Limits, parts: Mapping[str, list[str]]
+    results: Sequence[Result], box: Summary, limits: Limits, parts: Mapping[str, list[str]]
 ) -> list[str]:
     """All gear pairs of an input: verdict, forces, the severest in pictures; `parts` stand behind folds."""
     summaries = {
-        gear: dict(found) | (motion.summary_of(result) or {})
+        gear: {**found, **(motion.summary_of(result) or {})}
         for result in results
         for gear, found in box["gears"].items()
         if result.path.name == f"{box['name']}.{gear}.rattle"
@@ -79,7 +80,7 @@ def sum_words(summaries: Mapping[str, Summary], box: Summary) -> str:
         return f"The {count} pairs together load the bearings with {together}."
     if not forces:
         return ""
-    severest = max(forces, key=forces.get)
+    severest = max(forces, key=lambda gear: forces[gear])
     return f"{severest} is the most severe: it loads its bearings with {forces[severest]:.3g} N rms."
 
 
@@ -108,7 +109,7 @@ def pairs_table(summaries: Mapping[str, Summary], limits: Limits) -> str:
     for gear in sorted(summaries, key=lambda gear: -forces.get(gear, -1.0)):
         one = summaries[gear]
         # Tables of earlier versions report of double-sided impacts alone.
-        earlier = {True: "double-sided impacts", False: "no double-sided impacts"}
+        earlier: dict[bool | None, str] = {True: "double-sided impacts", False: "no double-sided impacts"}
         verdict = str(one.get("verdict", earlier.get(one.get("double_sided"), "-"))).strip()
         limit = [page.value(limits[gear], "N", page.FEW_DIGITS) if gear in limits else "-"] if limits else []
         impacts = [one.get(f"impacts_per_period_{flank}") for flank in ("drive", "coast")]
@@ -126,9 +127,9 @@ def pairs_table(summaries: Mapping[str, Summary], limits: Limits) -> str:
     return page.table(heads, rows, kinds=kinds, kind="dense")
 
 
-def severest_pair(results: Sequence[ResultFile], box: Summary, forces: Mapping[str, float]) -> list[str]:
+def severest_pair(results: Sequence[Result], box: Summary, forces: Mapping[str, float]) -> list[str]:
     """Pictures of the gear pair that loads its bearings most."""
-    gear = max(forces, key=forces.get) if forces else ""
+    gear = max(forces, key=lambda gear: forces[gear]) if forces else ""
     for result in results:
         if gear and result.path.name == f"{box['name']}.{gear}.rattle":
             drawn = motion.figures(result, motion.summary_of(result))
@@ -136,7 +137,7 @@ def severest_pair(results: Sequence[ResultFile], box: Summary, forces: Mapping[s
     return []
 
 
-def box_sections(results: Sequence[ResultFile], summaries: Mapping[str, Summary], box: Summary) -> list[str]:
+def box_sections(results: Sequence[Result], summaries: Mapping[str, Summary], box: Summary) -> list[str]:
     """How sure, what would change it, and what to doubt; each sentence once, with the pairs it is about."""
     sure = by_pair({gear: motion.sure_sentences(one) for gear, one in summaries.items()})
     inputs = {result.path.name: result for result in results}

@@ -205,7 +205,7 @@ def verdict_sentences(summary: Summary, limits: Limits) -> Iterator[str]:
 
 def impact_words(summary: Summary) -> str:
     """As in '3 impacts a period on the drive flank, 2 on the coast flank'; nothing without impacts."""
-    words = []
+    words: list[str] = []
     for flank in ("drive", "coast"):
         count = summary.get(f"impacts_per_period_{flank}", 0.0)
         if count > 0.0:
@@ -480,7 +480,7 @@ def _words(result: Result, summary: Summary) -> dict[str, str]:
     bound = "at least " if summary.get("harmonic_count_is_bound") else ""
     noun = "harmonic" if count == 1 else "harmonics"
     limits = result.input.get("spectrum", {})
-    words = {
+    words: dict[str, str] = {
         name: f"{limits[name]:g}"
         for name in ("quiet_limit", "irregular_limit", "idle_harmonics")
         if name in limits

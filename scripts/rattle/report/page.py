@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from html import escape
 from io import StringIO
 from typing import TYPE_CHECKING, Any
@@ -205,7 +205,7 @@ def fold(words: str, parts: Sequence[str], anchor: str = "") -> list[str]:
     return ["<details>", f"<summary>{heading(2, words, anchor)}</summary>", *parts, "</details>"]
 
 
-def section(words: str, sentences: Sequence[str]) -> list[str]:
+def section(words: str, sentences: Iterable[str]) -> list[str]:
     """A heading with a paragraph for each sentence; nothing without any."""
     said = [paragraph(sentence) for sentence in sentences if sentence]
     return [heading(2, words), *said] if said else []

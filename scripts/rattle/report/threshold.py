@@ -116,19 +116,19 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
         else:
             yield "Every trace has a threshold in this range."
     if found.has_ends and crossed.any():
-        many = int(found.either.sum())
-        which = f"At {many} of {int(crossed.sum())} thresholds either side is possible beyond it"
+        either = int(found.either.sum())
+        which = f"At {either} of {int(crossed.sum())} thresholds either side is possible beyond it"
         yield (
             f"{which}: motions of a side, followed from there, last on while those of the other exist. These "
             "thresholds are those of the motion from rest; on the way up a gear changes at last_below, on "
             "the way down at last_above."
-            if many
+            if either
             else "Followed along the key from their starts, the motions of both sides end at the thresholds."
         )
     if found.another_side.any():
-        many = int(found.another_side.sum())
-        having = "trace without a threshold has" if many == 1 else "traces without a threshold have"
-        yield f"{many} {having} motions on another side, from other starts: from last_above to last_below."
+        others = int(found.another_side.sum())
+        having = "trace without a threshold has" if others == 1 else "traces without a threshold have"
+        yield f"{others} {having} motions on another side, from other starts: from last_above to last_below."
     if "verified_below" in found.result and crossed.any():
         sure = int(crossed.sum() - found.uncertain.sum())
         yield (

@@ -42,7 +42,7 @@ class Transfer:
     def at(self, frequencies: np.ndarray) -> np.ndarray:
         """Complex [Pa/N]; 0 outside the range. Between points, level and phase follow straight lines."""
         inside = (frequencies >= self.range[0]) & (frequencies <= self.range[1])
-        if self.frequencies is None:
+        if self.frequencies is None or self.logarithms is None or self.phases is None:
             return np.where(inside, housing(frequencies), 0.0)
         level = np.interp(frequencies, self.frequencies, self.logarithms)
         phase = np.interp(frequencies, self.frequencies, self.phases)
