@@ -203,7 +203,9 @@ class ResultFile(ColumnMapping):
         """
         if self.task != task:
             drawn_by = f"; 'plot.py {self.task}' draws it" if self.task in DRAWN else ""
-            raise ResultError(f"{self.path} is not a {task} but the result of task = '{self.task}'{drawn_by}.")
+            raise ResultError(
+                f"{self.path} is not a {task} but the result of task = '{self.task}'{drawn_by}."
+            )
 
 
 class CheckedRows:
