@@ -611,7 +611,7 @@ class Study:
             self.score("link in the way", task, faults + self.kept_foreign(), f"{name} to {kind}")
 
     def no_locks(self, task: Task) -> None:
-        """Two runs at a time where the file system knows no locks; every second time of two inputs."""
+        """Two runs at a time where the file system has no locks; every second time of two inputs."""
         unlocked = {"LD_PRELOAD": str(self.shim), "FAULT_FLOCK": str(errno.ENOLCK)}
         for number in range(self.tries):
             self.lay_out(task)

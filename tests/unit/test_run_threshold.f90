@@ -90,7 +90,7 @@ contains
       call expect(integer_text(solved)//' of '//integer_text(solved)//' scenes,')
       call expect('  '//counted(crossings, 'crossing')//'; '//integer_text(uncrossed)//' of '//counted(traces, 'trace')// &
                   ' without any; at '//counted(uncertain, 'crossing')//' a side is not verified'//line_feed)
-      call expect('the ends of '//counted(wide, 'crossing')//' are verified only farther apart than asked for')
+      call expect('the ends of '//counted(wide, 'crossing')//' are verified only farther apart than requested')
       call expect('scenes that failed are a kind of their own')
       call expect('  '//integer_text(solved)//' scenes; a grid as fine has '//integer_text(nint(grid, int64))// &
                   ', 3.00 times as many'//line_feed)

@@ -251,7 +251,7 @@ contains
                        'between 1e-100 and 1e100')
       call refuse_grid(checks, [range_axis(2, scale_linear, 1.0_dp, 2.0_dp, 1)], 1, 'count must be 2 or more')
       call refuse_grid(checks, [list_axis(2, none)], 1, 'list of values is empty')
-      call refuse_grid(checks, [list_axis(2, [1.0_dp, 3.0_dp, 1.0_dp])], 1, 'holds the value 1.0 twice')
+      call refuse_grid(checks, [list_axis(2, [1.0_dp, 3.0_dp, 1.0_dp])], 1, 'has the value 1.0 twice')
       call refuse_grid(checks, [sound, list_axis(3, [1.0_dp]), sound], 3, 'varied already')
       whole%count = 5
       call refuse_grid(checks, [whole], 1, 'does not divide the range')
@@ -263,7 +263,7 @@ contains
       call refuse_grid(checks, [whole], 1, 'steps below 1')
       whole = list_axis(2, [1.0_dp, 2.5_dp])
       whole%whole = .true.
-      call refuse_grid(checks, [whole], 1, '2.5 is no integer')
+      call refuse_grid(checks, [whole], 1, '2.5 is not an integer')
       call refuse_grid(checks, many_axes(7, 2), 0, '6 keys at most')
       call refuse_grid(checks, many_axes(6, 100000000), 0, 'more than 9223372036854775807 scenes')
       call refuse_grid(checks, many_axes(0, 2), 0, 'no key is varied')

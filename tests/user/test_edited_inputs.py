@@ -174,7 +174,7 @@ def test_a_summary_whose_result_is_gone_is_kept(task: str, run, scene_text, tmp_
     before = contents(tmp_path / "results")
     ended = run("--resume", "scene.nml", cwd=tmp_path)
     assert ended.returncode == 2
-    assert "results/scene.summary.nml tells of an earlier run whose result is gone" in ended.stderr
+    assert "results/scene.summary.nml is of an earlier run whose result is missing" in ended.stderr
     assert contents(tmp_path / "results") == before
     assert run("--overwrite", "scene.nml", cwd=tmp_path).returncode == 0
 

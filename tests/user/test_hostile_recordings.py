@@ -124,7 +124,7 @@ CASES: dict[str, tuple[bytes, tuple[str, ...], str]] = {
     "constant angle": (
         text("time_s,a_deg,f_N", TIME, 0.0 * TIME, FORCE),
         ("--angle", "a_deg"),
-        "no angle of a",
+        "an angle that",
     ),
     "angle goes back": (
         text("time_s,a_deg", TIME, changed(np.degrees(ENGINE.angle(TIME)), 900, 10.0)),

@@ -484,7 +484,7 @@ def test_the_log_of_a_sweep_is_its_rows(solve, scene_text, key, first, last, fai
                 if exact
                 else "published iso-viscous film (35), rupture angle pi/2"
             ),
-            warning if "beyond what" in found[1] else None,
+            warning if "outside the range" in found[1] else None,
             f"  {result.row_count} motions in {ANY} s: {summary['status_text']}",
             *files(path),
         ],
