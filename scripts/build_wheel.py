@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parents[1]
 # for recordings of a test bench, and for sounds.
 NEEDED = ("numpy", "matplotlib", "f90nml")
 EXTRAS = {
-    "tables": ("pandas", "xarray", "pyarrow", "netCDF4", "scipy", "SALib"),
+    "tables": ("pandas", "xarray", "pyarrow", "netCDF4", "openpyxl", "scipy", "SALib"),
     "recordings": ("pandas", "scipy", "Pint", "asammdf", "npTDMS", "pyuff", "h5py"),
     "sound": ("scipy", "mosqito"),
 }

@@ -37,7 +37,7 @@ case $python in
     *) plain=yes ;;
 esac
 [ "${#python}" -lt 126 ] || plain=
-for name in calibrate campaign classify compare countermeasures export listen plot recording report sensitivity; do
+for name in calibrate campaign classify compare countermeasures export gear_data listen plot recording report sensitivity; do
     {
         if [ "$plain" ]; then
             printf '#!%s\n' "$python"

@@ -71,6 +71,12 @@ def read_csv_table(path: Path, example: str) -> CsvTable:
     )
 
 
+def conversion(unit: str, needed: str) -> tuple[float, float, str]:
+    """Factor of a number in one unit, and what is added, to be in another; or why it cannot be."""
+    _, _, (factor, added), fault = _unit_of("", unit, needed)
+    return float(factor), float(added), fault
+
+
 def _unit_of(head: str, below: str, needed: str) -> tuple[str, str, np.ndarray, str]:
     """Name without unit; the unit; factor and what is added behind; why nothing makes the unit needed."""
     import rattle._kernels as _kernels

@@ -6,7 +6,7 @@ import importlib
 from types import ModuleType
 
 # Which extra of the package brings a library.
-EXTRAS = {"pandas": "tables", "xarray": "tables", "scipy": "sound"}
+EXTRAS = {"pandas": "tables", "xarray": "tables", "openpyxl": "tables", "scipy": "sound"}
 
 
 def needed(library: str, module: str = "") -> ModuleType:

@@ -26,6 +26,7 @@ SCRIPTS = (
     "compare",
     "countermeasures",
     "export",
+    "gear_data",
     "listen",
     "plot",
     "recording",
