@@ -27,9 +27,12 @@ def main() -> int | None:
     outputs.check(places, overwrite=options.overwrite, inputs=options.results)
     from rattle.report import report  # needs the kernels, and what is missing of them has a sentence here
     from rattle.report.limits import read_limits
+    from rattle.report.reference import read_reference
 
     limits = read_limits(options.limits) if options.limits else {}
-    text = command.readable(report(options.results, brief=options.brief, limits=limits))
+    reference = read_reference(options.reference) if options.reference else None
+    made = report(options.results, brief=options.brief, limits=limits, reference=reference)
+    text = command.readable(made)
     outputs.write([(page, outputs.text_writer(text))], overwrite=options.overwrite, inputs=options.results)
     print(page)
     return print_page(page, printed, options) if printed else None
@@ -100,6 +103,11 @@ def parse_options() -> argparse.Namespace:
         type=Path,
         metavar="FILE.csv",
         help="film forces that pairs are to keep: columns gear and film_force_rms [N]",
+    )
+    parser.add_argument(
+        "--reference",
+        metavar="[NAME=]RESULT",
+        help="also give film forces in dB re those of this result or summary, pair by pair",
     )
     parser.add_argument("--brief", action="store_true", help="leave the appendix out of what is printed")
     outputs.add_option(parser)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from outcomes import series_in
 from report_reader import figures, input_of, number, read_page
 from reported import SPOKEN, stated_error
 from result_writer import write_motion, write_result
-from script_calls import call_script
+from script_calls import call_script, called_here
 
 import rattle
 from rattle import codes
@@ -224,6 +225,46 @@ def test_limits_are_held_against_the_forces(run, repository, tmp_path):
         limits.write_text(text)
         done = call_script("report.py", *results, "--limits", limits, "--output", output, "--overwrite")
         assert done.returncode == 2 and words in done.stderr and done.stderr.count("\n") == 1
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_forces_are_levels_against_a_reference(run, tmp_path):
+    """Of a gearbox pair by pair and together, of one pair in its verdict; within errors there is none."""
+    pair = "teeth_1 = 11, teeth_2 = 38, normal_module = 2.5e-3, helix_angle_deg = 28.96, face_width = 0.016"
+    pair += ", loose_inertia = 1.715e-3, backlash = 1.0e-4, tooth_stiffness = 0.0"
+    box = "".join(f"&gear name = '{name}', {pair}, drag_torque = 0.1 /\n" for name in ("low", "high"))
+    box += "&shaft speed_rpm = 800.0, orders = 2.0, accelerations = 600.0 /\n&spectrum periods = 4 /\n"
+    box += "&oil viscosity_40_cst = 58.0, viscosity_100_cst = 9.6, temperature_celsius = 40.0 /\n"
+    box += "&film law = 'iso-viscous', model = 'reynolds' /\n&solver periods = 60 /\n"
+    (tmp_path / "box.nml").write_text(box)
+    for folder, low in (("a", 1.0e-4), ("b", 0.6e-4)):
+        ended = run("--output", folder, "--set", f"gear(1).backlash={low}", "box.nml", cwd=tmp_path)
+        assert ended.returncode == 0, ended.stderr
+    forces = {
+        folder: {
+            name: rattle.read_summary(tmp_path / folder / f"box.{name}.summary.nml")["film_force_rms"]
+            for name in ("low", "high")
+        }
+        for folder in "ab"
+    }
+    level = f"{20.0 * math.log10(forces['a']['low'] / forces['b']['low']):+.1f} dB"
+    assert level not in ("+0.0 dB", "-0.0 dB")
+    sums = [rattle.read_summary(tmp_path / one / "box.summary.nml") for one in "ab"]
+    ratio = sums[0]["film_force_rms_uncorrelated"] / sums[1]["film_force_rms_uncorrelated"]
+    results = [f"a/box.{name}.rattle" for name in ("low", "high")]
+    arguments = ("--reference", "box A=b/box.summary.nml", "--output", "page.html")
+    code, _, complained = called_here("report.py", *results, *arguments, cwd=tmp_path)
+    assert code == 0, complained
+    page = read_page(tmp_path / "page.html")
+    heads, *rows = next(table for table in page.tables if table[0][0] == "Pair")
+    shown = {row[0]: row[heads.index("re box A")] for row in rows}
+    assert shown == {"low": level, "high": "0 dB within the errors"}
+    assert f"Independent forces: {20.0 * math.log10(ratio):+.1f} dB re box A." in page.verdicts[0]
+    arguments = ("--reference", "b/box.low.rattle", "--output", "one.html")
+    assert called_here("report.py", results[0], *arguments, cwd=tmp_path)[0] == 0
+    assert f"N rms, {level} re box.low." in read_page(tmp_path / "one.html").verdicts[0]
+    assert called_here("report.py", *results, "--output", "bare.html", cwd=tmp_path)[0] == 0
+    assert " re box" not in (tmp_path / "bare.html").read_text()
 
 
 @pytest.mark.usefixtures("undrawn")

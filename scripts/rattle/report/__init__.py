@@ -23,6 +23,7 @@ from rattle.report import (
     threshold,
 )
 from rattle.report.limits import Limits
+from rattle.report.reference import Reference
 from rattle.result import MOTIONS_ENDING, Result, read
 from rattle.result_file import ResultFile
 from rattle.summary import Summary
@@ -37,10 +38,17 @@ FILM_CAPTIONS = {
 }
 
 
-def report(paths: Sequence[Path], *, brief: bool = False, limits: Limits | None = None) -> str:
+def report(
+    paths: Sequence[Path],
+    *,
+    brief: bool = False,
+    limits: Limits | None = None,
+    reference: Reference | None = None,
+) -> str:
     """The page on all results, in the order given; a brief one prints without its appendix.
 
-    `limits`: film forces [N rms] that gear pairs, by their names, are to keep.
+    `limits`: film forces [N rms] that gear pairs, by their names, are to keep. `reference`: what they are
+    measured by, in dB.
     """
     limits = limits or {}
     # What the table of all motions of a scene shows, the part on the scene does.
@@ -51,19 +59,21 @@ def report(paths: Sequence[Path], *, brief: bool = False, limits: Limits | None 
     if len(boxes) == 1 and len(next(iter(boxes.values()))["gears"]) == len(names):
         name, box = next(iter(boxes.items()))
         title = f"Rattle of {name}"
-        parts = {name: part(result, name, limits) for result, name in zip(results, names, strict=True)}
+        parts = {
+            name: part(result, name, limits, reference) for result, name in zip(results, names, strict=True)
+        }
         pairs = [result for result in results if isinstance(result, Result)]
-        body = [page.heading(1, title), *gearbox.page_of_box(pairs, box, limits, parts)]
+        body = [page.heading(1, title), *gearbox.page_of_box(pairs, box, limits, parts, reference)]
         return page.document(title, body, brief=brief)
     title = f"Rattle of {names[0]}" if len(names) == 1 else f"Rattle of {len(names)} results"
     what = page.OF_THRESHOLDS if {result.task for result in results} == {"threshold"} else page.OF_MOTIONS
     body = [page.heading(1, title)]
     if len(results) > 1:
-        body += [*overview(results, names, boxes), *comparison.of_paths(paths)]
+        body += [*overview(results, names, boxes, reference), *comparison.of_paths(paths)]
     for place, (result, name) in enumerate(zip(results, names, strict=True), 1):
         if len(results) > 1:
             body.append(page.heading(1, name, f"result-{place}"))
-        body += part(result, name, limits)
+        body += part(result, name, limits, reference)
     return page.document(title, [*body, page.paragraph(page.ABOUT.format(what=what), "note")], brief=brief)
 
 
@@ -73,7 +83,7 @@ def opened(path: Path) -> ResultFile:
     return rattle.read_campaign(path) if result.task == "campaign" else result
 
 
-def part(result: ResultFile, name: str, limits: Limits) -> list[str]:
+def part(result: ResultFile, name: str, limits: Limits, reference: Reference | None = None) -> list[str]:
     """All that is said of one result."""
     if isinstance(result, Campaign):
         seen, folds = campaign_part(result)
@@ -83,7 +93,7 @@ def part(result: ResultFile, name: str, limits: Limits) -> list[str]:
         seen, folds = table_part(result)
     elif isinstance(result, Result):
         makers: dict[str, Callable[[Result], Parts]] = {
-            "motion": partial(motion_part, limits=limits),
+            "motion": partial(motion_part, limits=limits, reference=reference),
             "sweep": sweep_part,
             "threshold": threshold_part,
             "film": film_part,
@@ -109,9 +119,9 @@ def part(result: ResultFile, name: str, limits: Limits) -> list[str]:
 # What is seen of a result of each task, and what stands behind folds.
 
 
-def motion_part(result: Result, limits: Limits) -> Parts:
+def motion_part(result: Result, limits: Limits, reference: Reference | None = None) -> Parts:
     summary = motion.summary_of(result)
-    parts = [*motion.verdict(result, summary, limits), *motion.figures(result, summary)]
+    parts = [*motion.verdict(result, summary, limits, reference), *motion.figures(result, summary)]
     if not summary:
         return parts, []
     advice, folds = countermeasures.part(result.path.parent, result.scene_name, {"": summary})
@@ -173,7 +183,12 @@ def table_part(result: Result) -> Parts:
     return [], page.fold("All columns", [page.paragraph(words, "note"), page.ranges(rows)])
 
 
-def overview(results: Sequence[ResultFile], names: Sequence[str], boxes: Mapping[str, Summary]) -> list[str]:
+def overview(
+    results: Sequence[ResultFile],
+    names: Sequence[str],
+    boxes: Mapping[str, Summary],
+    reference: Reference | None = None,
+) -> list[str]:
     """Links to all parts, the pairs of gearboxes, and the summaries of motions side by side."""
     links = "".join(
         f'<a href="#result-{place}">{page.escape(name)}</a>' for place, name in enumerate(names, 1)
@@ -184,6 +199,6 @@ def overview(results: Sequence[ResultFile], names: Sequence[str], boxes: Mapping
     for name, box in boxes.items():
         pairs = dict(box["gears"])
         parts += [page.heading(2, f"Gear pairs of {name}"), page.paragraph(gearbox.sum_words(pairs, box))]
-        parts.append(gearbox.pairs_table(pairs, {}))
+        parts.append(gearbox.pairs_table(pairs, {}, reference))
         parts += gearbox.odd_numbers_of(box, summaries)
     return [*parts, *page.fold("Side by side", gearbox.side_by_side(summaries))]

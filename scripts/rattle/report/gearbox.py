@@ -8,6 +8,7 @@ from rattle.codes import QUANTITIES
 from rattle.figures import ranks
 from rattle.report import asked, countermeasures, motion, page
 from rattle.report.limits import Limits
+from rattle.report.reference import Reference
 from rattle.result import Result
 from rattle.result_file import ResultFile
 from rattle.summary import Summary, comparison_table, input_warnings, read_summary
@@ -25,7 +26,11 @@ SUMS = {
 
 
 def page_of_box(
-    results: Sequence[Result], box: Summary, limits: Limits, parts: Mapping[str, list[str]]
+    results: Sequence[Result],
+    box: Summary,
+    limits: Limits,
+    parts: Mapping[str, list[str]],
+    reference: Reference | None = None,
 ) -> list[str]:
     """All gear pairs of an input: verdict, forces, the severest in pictures; `parts` stand behind folds."""
     summaries = {
@@ -45,9 +50,9 @@ def page_of_box(
         folds += page.fold(name, part, f"result-{place}")
     return [
         page.paragraph(asked.operating_point(results[0], gears), "lead"),
-        *box_verdict(summaries, box, limits),
-        *rank_figure(summaries, box, limits),
-        pairs_table(summaries, limits),
+        *box_verdict(summaries, box, limits, reference),
+        *rank_figure(summaries, box, limits, reference),
+        pairs_table(summaries, limits, reference),
         *severest_pair(results, box, forces),
         *advice,
         *box_sections(results, summaries, box),
@@ -56,7 +61,9 @@ def page_of_box(
     ]
 
 
-def box_verdict(summaries: Mapping[str, Summary], box: Summary, limits: Limits) -> list[str]:
+def box_verdict(
+    summaries: Mapping[str, Summary], box: Summary, limits: Limits, reference: Reference | None = None
+) -> list[str]:
     """How many pairs rattle, how sure that is, and how hard they load the bearings."""
     known = {gear: one for gear, one in summaries.items() if "verdict" in one}
     hit = [gear for gear, one in known.items() if "impacts" in str(one["verdict"])]
@@ -67,7 +74,9 @@ def box_verdict(summaries: Mapping[str, Summary], box: Summary, limits: Limits) 
     forces = forces_of(summaries)
     above = [gear for gear in forces if forces[gear] > limits.get(gear, float("inf"))]
     more = f"Above the limit: {', '.join(above)}." if above else "All keep their limits." if limits else ""
-    return [page.verdict_box(head, badge, [sum_words(summaries, box), more], doubt=badge[0] == "doubt")]
+    level = reference.together(box, summaries) if reference else ""
+    words = [sum_words(summaries, box), level, more]
+    return [page.verdict_box(head, badge, words, doubt=badge[0] == "doubt")]
 
 
 def sum_words(summaries: Mapping[str, Summary], box: Summary) -> str:
@@ -84,26 +93,31 @@ def sum_words(summaries: Mapping[str, Summary], box: Summary) -> str:
     return f"{severest} is the most severe: it loads its bearings with {forces[severest]:.3g} N rms."
 
 
-def rank_figure(summaries: Mapping[str, Summary], box: Summary, limits: Limits) -> list[str]:
+def rank_figure(
+    summaries: Mapping[str, Summary], box: Summary, limits: Limits, reference: Reference | None = None
+) -> list[str]:
     forces = forces_of(summaries)
     if not forces:
         return []
     verdicts = {gear: str(one.get("verdict", "")).strip() for gear, one in summaries.items()}
     together = {words: float(box[key]) for key, (_, words) in SUMS.items() if key in box}
     kept = {gear: limit for gear, limit in limits.items() if gear in forces}
+    levels = {gear: reference.level(gear, summaries[gear]) for gear in forces} if reference else {}
     caption = (
         "Fluctuation of the film force that each pair loads the bearings with, the hardest first; "
-        "colours: what the tooth does." + (" Strokes: limits." if kept else "")
+        "colours: what the tooth does."
+        + (" Strokes: limits." if kept else "")
+        + (f" Levels re {reference.name}." if reference else "")
     )
-    return [
-        page.drawing(lambda: ranks.draw(forces, verdicts, together, kept), caption, f"{box['name']} ranks")
-    ]
+    name = f"{box['name']} ranks"
+    return [page.drawing(lambda: ranks.draw(forces, verdicts, together, kept, levels), caption, name)]
 
 
-def pairs_table(summaries: Mapping[str, Summary], limits: Limits) -> str:
+def pairs_table(summaries: Mapping[str, Summary], limits: Limits, reference: Reference | None = None) -> str:
     """The pairs, the hardest first: verdict, force, impacts by flank, approach, inertia, and how sure."""
     forces = forces_of(summaries)
     heads = ["Pair", "Verdict", "Film force, rms", *(["Limit"] if limits else [])]
+    heads += [f"re {reference.name}"] if reference else []
     heads += ["Impacts a period, drive / coast", "Approach velocity", "Inertia ratio", "How sure"]
     rows = []
     for gear in sorted(summaries, key=lambda gear: -forces.get(gear, -1.0)):
@@ -122,8 +136,10 @@ def pairs_table(summaries: Mapping[str, Summary], limits: Limits) -> str:
         motions = int(one.get("motions", 1))
         sure += f"; {motions} motions" if motions > 1 else ""
         force = number_of(one, "film_force_rms")
+        limit += [reference.level(gear, one)] if reference else []
         rows.append([gear, verdict, force, *limit, counts, speed, number_of(one, "inertia_ratio"), sure])
-    kinds = ["", "", "number", *(["number"] if limits else []), "number", "number", "number", ""]
+    kinds = ["", "", "number", *["number"] * (bool(limits) + bool(reference))]
+    kinds += ["number", "number", "number", ""]
     return page.table(heads, rows, kinds=kinds, kind="dense")
 
 

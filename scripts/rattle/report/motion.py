@@ -12,6 +12,7 @@ from rattle.keys import unit_of
 from rattle.report import page
 from rattle.report.limits import Limits
 from rattle.report.limits import words as limit_words
+from rattle.report.reference import Reference
 from rattle.result import Result
 from rattle.result_file import ResultFile
 from rattle.summary import RESULTS, Summary, input_warnings, read_summary
@@ -158,12 +159,14 @@ def notes_on(lines: Iterable[str]) -> list[str]:
     return [page.paragraph(f"{line[:1].upper()}{line[1:]}.", "note") for line in lines]
 
 
-def verdict(result: Result, summary: Summary | None, limits: Limits) -> list[str]:
+def verdict(
+    result: Result, summary: Summary | None, limits: Limits, reference: Reference | None = None
+) -> list[str]:
     """The verdict, its verification, the class with its own, and how hard it is."""
     if summary is None:
         words = f"No summary stands beside {result.path.name}: its class and errors are not known here."
         return [page.verdict_box("No verdict", None, [words], doubt=True)]
-    sentences = list(verdict_sentences(summary, limits))
+    sentences = list(verdict_sentences(summary, limits, reference))
     word = spoken(str(summary.get("rattle_class", "no class")).strip())
     badge = badge_of(summary)
     ended = str(summary["status"]).strip() in _ended_well()
@@ -184,7 +187,7 @@ def badge_of(summary: Summary) -> tuple[str, str]:
     return ("good", VERIFIED) if verification == "verified" else ("doubt", verification)
 
 
-def verdict_sentences(summary: Summary, limits: Limits) -> Iterator[str]:
+def verdict_sentences(summary: Summary, limits: Limits, reference: Reference | None = None) -> Iterator[str]:
     """What the tooth does, how often it hits, and how hard."""
     if str(summary["status"]).strip() not in _ended_well():
         yield f"The run did not reach its end ({summary['status']}). {summary.get('status_text', '')}".strip()
@@ -195,9 +198,10 @@ def verdict_sentences(summary: Summary, limits: Limits) -> Iterator[str]:
     parts = [": ".join(filter(None, (verdict, impact_words(summary))))] if verdict else []
     if "film_force_rms" in summary:
         force = float(summary["film_force_rms"])
-        known = limit_words(str(summary.get("gear", "")).strip(), force, limits)
+        gear = str(summary.get("gear", "")).strip()
+        level = reference.words(gear, summary) if reference else ""
         size = f"film force on the bearings {force:.3g} N rms"
-        parts.append(f"{size}, {known}" if known else size)
+        parts.append(", ".join(filter(None, (size, level, limit_words(gear, force, limits)))))
     if parts:
         sentence = "; ".join(parts)
         yield f"{sentence[0].upper()}{sentence[1:]}."
