@@ -10,7 +10,7 @@ from pathlib import Path
 import rattle
 from rattle import command, outputs, sensitivity, table
 from rattle.figures import style
-from rattle.figures.sensitivity import draw
+from rattle.figures.sensitivity import draw, draw_directions
 
 
 def main() -> int:
@@ -67,12 +67,18 @@ def analyse() -> int:
     found = sensitivity.studies(campaign, options.quantities)
     for study in found:
         print("\n".join(words(study)))
-    if options.output and any(study.found for study in found):
+    figures = []
+    if any(study.found for study in found):
+        figures.append((f"sensitivity_{campaign.name}", draw))
+    if any(study.directions for study in found):
+        figures.append((f"directions_{campaign.name}", draw_directions))
+    if options.output and figures:
         options.format, options.dpi = ("png", "pdf"), 200
         options.width = options.font_size = options.xlim = options.ylim = None
         options.no_title = False
         with style.house_style():
-            for path in style.save([(f"sensitivity_{campaign.name}", draw(campaign, found))], options):
+            drawn = [(stem, maker(campaign, found)) for stem, maker in figures]
+            for path in style.save(drawn, options):
                 print(path)
     return command.COMPLETE
 
@@ -92,6 +98,10 @@ def words(study: sensitivity.Study) -> list[str]:
             numbers = (found.first, found.first_error, found.total, found.total_error)
             rows.append([key, *(f"{column[place]:.3f}" for column in numbers)])
         lines += [table.plain(rows), ""]
+    for found in study.directions:
+        rows = [[found.quantity, "rank correlation"]]
+        rows += [[key, f"{value:+.3f}"] for key, value in zip(study.keys, found.correlation, strict=True)]
+        lines += [table.plain(rows), f"by chance up to {found.by_chance:.3f}", ""]
     if study.constant:
         lines.append(f"the same at all points: {', '.join(study.constant)}")
     return lines

@@ -30,6 +30,7 @@ CONFIDENCE, RESAMPLES = 0.95, 200
 LEAST_BLOCKS = 2
 BLOCKS = 256  # of a design, where neither --blocks nor campaign.size says how many
 NORMAL = 1.959963984540054  # of the interval of a share
+LEAST_POINTS = 4  # of a direction
 LEAST_IMPACTS = 2  # verdict from which a pair rattles: impacts on one flank at least
 
 
@@ -45,8 +46,18 @@ class Indices:
 
 
 @dataclass(frozen=True)
+class Direction:
+    """Whether a quantity grows with each varied key: Spearman's rank correlation at independent points."""
+
+    quantity: str
+    correlation: np.ndarray
+    by_chance: float
+    """Size that 95 % of the correlations of keys without any effect keep below."""
+
+
+@dataclass(frozen=True)
 class Study:
-    """What a design reports of one pair; `probability` of impacts with its interval, if known."""
+    """What a design or a sample shows of one pair; `probability` of impacts with its interval, if known."""
 
     pair: str
     keys: tuple[str, ...]
@@ -55,6 +66,7 @@ class Study:
     found: tuple[Indices, ...]
     constant: tuple[str, ...]
     probability: tuple[float, float, float] | None
+    directions: tuple[Direction, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -185,7 +197,8 @@ def _study(campaign: Campaign, quantities: Sequence[str]) -> Study:
 
     pair = campaign.name.rpartition(".")[2] if campaign.gears else ""
     if campaign.kind == SAMPLE:
-        return Study(pair, tuple(campaign.varied), 0, 0, (), (), _probability(campaign, 1))
+        found_signs = directions(campaign, quantities, 1)
+        return Study(pair, tuple(campaign.varied), 0, 0, (), (), _probability(campaign, 1), found_signs)
     blocks = _blocks(_points(campaign), campaign)
     usable = np.all((campaign.done & ~campaign.failed).reshape(blocks.shape[:2]), axis=1)
     found, constant = [], []
@@ -214,7 +227,35 @@ def _study(campaign: Campaign, quantities: Sequence[str]) -> Study:
         tuple(found),
         tuple(constant),
         _probability(campaign, blocks.shape[1]),
+        directions(campaign, quantities, blocks.shape[1]),
     )
+
+
+def directions(campaign: Campaign, quantities: Sequence[str], size: int) -> tuple[Direction, ...]:
+    """The direction of each quantity that varies; `size` scenes are a block, 1 in a sample."""
+    from scipy.stats import spearmanr
+
+    found = []
+    for name in quantities:
+        values = np.array(campaign[name], dtype=float)
+        usable = independent(campaign, size) & np.isfinite(values)
+        if np.sum(usable) < LEAST_POINTS or np.ptp(values[usable]) <= 1e-12 * np.max(np.abs(values[usable])):
+            continue
+        columns = (np.array(campaign[key], dtype=float)[usable] for key in campaign.varied)
+        signs = np.array([spearmanr(column, values[usable]).statistic for column in columns])
+        found.append(Direction(name, signs, float(NORMAL / np.sqrt(np.sum(usable) - 1))))
+    return tuple(found)
+
+
+def independent(campaign: Campaign, size: int) -> np.ndarray:
+    """Which rows are scenes that were solved, at points that are drawn independently."""
+    drawn = np.isin(np.arange(campaign.row_count) % size, (0, size - 1))
+    return drawn & campaign.done & ~campaign.failed
+
+
+def block_size(campaign: Campaign) -> int:
+    """Scenes of a block of a design, 1 of a sample. Raises CommandError for any other campaign."""
+    return 1 if campaign.kind == SAMPLE else _blocks(_points(campaign), campaign).shape[1]
 
 
 def _blocks(points: np.ndarray, campaign: Campaign) -> np.ndarray:
@@ -238,12 +279,15 @@ def _probability(campaign: Campaign, size: int) -> tuple[float, float, float] | 
     """Share of the independent points at which the pair rattles, with Wilson's interval."""
     if "verdict" not in campaign:
         return None
-    independent = np.isin(np.arange(campaign.row_count) % size, (0, size - 1))
-    usable = independent & campaign.done & ~campaign.failed
-    count = int(np.sum(usable))
-    if count == 0:
+    usable = independent(campaign, size)
+    if not np.any(usable):
         return None
-    share = float(np.mean(np.array(campaign["verdict"], dtype=float)[usable] >= LEAST_IMPACTS))
+    return share_of(np.isin(campaign["verdict"], WITH_IMPACTS)[usable])
+
+
+def share_of(hits: np.ndarray) -> tuple[float, float, float]:
+    """Share of true ones, and both ends of its 95 % interval (Wilson)."""
+    count, share = len(hits), float(np.mean(hits))
     centre = share + NORMAL**2 / (2 * count)
     half = NORMAL * np.sqrt(share * (1.0 - share) / count + NORMAL**2 / (4 * count**2))
     low, high = (float((centre + side * half) / (1.0 + NORMAL**2 / count)) for side in (-1.0, 1.0))

@@ -11,7 +11,8 @@ import pytest
 from script_calls import called_here
 
 import rattle as package
-from rattle.codes import QUANTITIES
+from rattle import sensitivity
+from rattle.codes import CODES, QUANTITIES
 
 INPUT = """&gear
    teeth_1 = 19, teeth_2 = 37, normal_module = 2.2e-3, helix_angle_deg = 28.0, face_width = 0.016
@@ -80,9 +81,64 @@ def test_indices_of_a_product(run, tmp_path: Path) -> None:
         assert abs(reported[key][2] - total) <= 1.5 * reported[key][3] + 5e-4, key
         assert reported[key][1] < 0.35 and reported[key][3] < 0.35
     assert sorted(path.name for path in (tmp_path / "figures").iterdir()) == [
+        "directions_pair_design.pdf",
+        "directions_pair_design.png",
         "sensitivity_pair_design.pdf",
         "sensitivity_pair_design.png",
     ]
+
+
+def test_directions_are_those_of_a_product(run, tmp_path: Path) -> None:
+    """inertia_ratio falls with drag_scale, grows with force_scale, and backlash is nothing to it."""
+    write(tmp_path, "sample = 'sobol', size = 32, record = 'inertia_ratio'\n")
+    ended = run("--set", "scene.task='campaign'", "pair.nml", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    result = tmp_path / "results" / "pair.rattle"
+    (study,) = sensitivity.studies(package.read_campaign(result), ["inertia_ratio"])
+    (found,) = study.directions
+    signs = dict(zip(study.keys, found.correlation, strict=True))
+    assert found.by_chance == pytest.approx(1.96 / math.sqrt(31.0), rel=1e-3)
+    # The logarithm of the drag spans 1.4, that of the force 0.4.
+    assert signs["gear.drag_scale"] < -0.9 and 0.15 < signs["load.force_scale"] < 0.5
+    assert abs(signs["gear.backlash"]) < found.by_chance
+    code, _, complained = called_here("report.py", result, "--output", "page.html", cwd=tmp_path)
+    assert code == 0, complained
+    assert "Direction of each effect" in (tmp_path / "page.html").read_text()
+
+
+def test_a_report_says_how_the_verdict_holds(run, tmp_path: Path) -> None:
+    """By the campaign of its name beside it, if that is of the same input but for what it varies."""
+    path = write(tmp_path, "sample = 'sobol', size = 8, record = 'verdict'\n")
+    path.write_text(path.read_text().replace("first = 0.5, 0.8,", "first = 0.5, 0.02,"))
+    (tmp_path / "motion.nml").write_text(INPUT)
+    tolerances = ("--set", "scene.task='campaign'", "--set", "scene.name='motion_tolerances'", "--overwrite")
+    for arguments in (("--set", "solver.starts=1", "motion.nml"), (*tolerances, "pair.nml")):
+        ended = run(*arguments, cwd=tmp_path)
+        assert ended.returncode == 0, ended.stderr
+    (tmp_path / "alone").mkdir()
+    for path in (tmp_path / "results").glob("motion.*"):
+        (tmp_path / "alone" / path.name).write_bytes(path.read_bytes())
+    campaign = package.read_campaign(tmp_path / "results" / "motion_tolerances.rattle")
+    verdict = package.read_summary(tmp_path / "results" / "motion.summary.nml")["verdict"].strip()
+    code = next(code for code, word in CODES["verdict"].items() if word == verdict)
+    share = 100.0 * float(np.mean(np.array(campaign["verdict"]) == code))
+    assert 0.0 < share < 100.0
+
+    def page(folder: str) -> str:
+        ended, _, complained = called_here(
+            "report.py", f"{folder}/motion.rattle", "--output", "page.html", "--overwrite", cwd=tmp_path
+        )
+        assert ended == 0, complained
+        return (tmp_path / "page.html").read_text()
+
+    text = page("results")
+    assert f"It holds in {share:.0f} % of 8 boxes drawn within tolerances." in text
+    assert f"Within tolerances: {verdict} in {share:.0f} % of 8 drawn boxes (95 % interval" in text
+    assert "olerances" not in page("alone")
+    assert run(*tolerances, "--set", "shaft.speed_rpm=900", "pair.nml", cwd=tmp_path).returncode == 0
+    text = page("results")
+    assert "motion_tolerances.rattle is of another shaft.speed_rpm than this result" in text
+    assert "It holds in" not in text
 
 
 def test_the_design_fills_its_ranges(run, tmp_path: Path) -> None:
@@ -173,7 +229,7 @@ def test_the_probability_is_the_share_of_independent_scenes(run, tmp_path: Path)
 
 
 def test_a_sample_has_a_probability_and_no_indices(run, tmp_path: Path) -> None:
-    write(tmp_path, "sample = 'sobol', size = 16, record = 'verdict'\n")
+    write(tmp_path, "sample = 'sobol', size = 8, record = 'verdict'\n")
     ended = run("--set", "scene.task='campaign'", "pair.nml", cwd=tmp_path)
     assert ended.returncode == 0, ended.stderr
     result = tmp_path / "results" / "pair.rattle"

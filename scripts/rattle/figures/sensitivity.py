@@ -1,4 +1,4 @@
-"""Sobol indices as bars: how much of the variance of a quantity each varied key explains."""
+"""Which varied keys matter, as bars: shares of the variance of a quantity, and the direction of each."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ from rattle.campaign_result import Campaign
 from rattle.campaign_section import short_name
 from rattle.figures import style
 from rattle.figures.campaign_look import capital
-from rattle.sensitivity import Indices, Study
+from rattle.sensitivity import Direction, Indices, Study
 
 BAR, PANEL, MARGIN = 0.34, 0.62, 1.0
 TITLE_LETTERS = 50  # that stand side by side above the panels
+SIGNS = {True: style.RUN_COLOURS[4], False: style.RUN_COLOURS[0]}
 KINDS = (("alone", "first", style.RUN_COLOURS[0]), ("with all others", "total", style.RUN_COLOURS[4]))
 
 
@@ -42,9 +43,45 @@ def draw(campaign: Campaign, studies: Sequence[Study]) -> Figure:
         row[0].set_ylabel(_label(study))
     panels[0, 0].set_xlim(0.0, 1.1)
     panels[-1, 0].set_xticks([0.0, 0.5, 1.0])
+    panels[-1, len(names) // 2].set_xlabel("Share of the variance [-]")
     style.legend_below(figure, panels[0, 0], 2)
     figure.suptitle(f"{campaign.name}: share of the variance that each key explains", fontsize=9.5)
     return figure
+
+
+def draw_directions(campaign: Campaign, studies: Sequence[Study]) -> Figure:
+    """A row of panels for each pair, a panel for each quantity, a signed bar for each key."""
+    names = list(dict.fromkeys(found.quantity for study in studies for found in study.directions))
+    keys = studies[0].keys
+    figure = Figure(figsize=(style.WIDTH, MARGIN + len(studies) * (PANEL + 0.7 * BAR * len(keys))))
+    panels = figure.subplots(len(studies), max(len(names), 1), squeeze=False, sharex=True, sharey=True)
+    for row, study in zip(panels, studies, strict=True):
+        by_name = {found.quantity: found for found in study.directions}
+        for axes, name in zip(row, names, strict=True):
+            if name in by_name:
+                _signed_bars(axes, by_name[name])
+            else:
+                axes.text(
+                    0.5, 0.5, "the same\nat all points", ha="center", va="center", transform=axes.transAxes
+                )
+            if study is studies[0]:
+                axes.set_title(capital(textwrap.fill(short_name(name), TITLE_LETTERS // len(names))))
+        row[0].set_yticks(range(len(keys)), [short_name(key) for key in keys])
+        row[0].set_ylim(len(keys) - 0.5, -0.5)
+        row[0].set_ylabel(_label(study))
+    panels[0, 0].set_xlim(-1.1, 1.1)
+    panels[-1, 0].set_xticks([-1.0, 0.0, 1.0])
+    figure.supxlabel("Rank correlation with the key [-]: right, it grows with it", fontsize=9)
+    figure.suptitle(f"{campaign.name}: direction of each effect", fontsize=9.5)
+    return figure
+
+
+def _signed_bars(axes: Axes, found: Direction) -> None:
+    """Bars within the grey band are as long as chance makes them."""
+    axes.axvspan(-found.by_chance, found.by_chance, color="#DDDDDD", linewidth=0.0)
+    axes.axvline(0.0, color="black", linewidth=0.6)
+    colours = [SIGNS[value > 0.0] for value in found.correlation]
+    axes.barh(range(len(found.correlation)), found.correlation, 0.6, color=colours)
 
 
 def _label(study: Study) -> str:

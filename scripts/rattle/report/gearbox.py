@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from rattle.codes import QUANTITIES
 from rattle.figures import ranks
-from rattle.report import asked, countermeasures, motion, page
+from rattle.report import asked, countermeasures, motion, page, tolerance
 from rattle.report.limits import Limits
 from rattle.report.reference import Reference
 from rattle.result import Result
@@ -50,7 +50,7 @@ def page_of_box(
         folds += page.fold(name, part, f"result-{place}")
     return [
         page.paragraph(asked.operating_point(results[0], gears), "lead"),
-        *box_verdict(summaries, box, limits, reference),
+        *box_verdict(summaries, box, limits, reference, held_by(results, box, summaries)),
         *rank_figure(summaries, box, limits, reference),
         pairs_table(summaries, limits, reference),
         *severest_pair(results, box, forces),
@@ -61,8 +61,24 @@ def page_of_box(
     ]
 
 
+def held_by(
+    results: Sequence[ResultFile], box: Summary, summaries: Mapping[str, Summary]
+) -> list[tolerance.Held | str]:
+    """How the verdict of each pair with a result holds within tolerances."""
+    inputs = {result.path.name: result for result in results}
+    return [
+        tolerance.held(inputs[name], one)
+        for gear, one in summaries.items()
+        if (name := f"{box['name']}.{gear}.rattle") in inputs
+    ]
+
+
 def box_verdict(
-    summaries: Mapping[str, Summary], box: Summary, limits: Limits, reference: Reference | None = None
+    summaries: Mapping[str, Summary],
+    box: Summary,
+    limits: Limits,
+    reference: Reference | None = None,
+    held: Sequence[tolerance.Held | str] = (),
 ) -> list[str]:
     """How many pairs rattle, how sure that is, and how hard they load the bearings."""
     known = {gear: one for gear, one in summaries.items() if "verdict" in one}
@@ -75,7 +91,7 @@ def box_verdict(
     above = [gear for gear in forces if forces[gear] > limits.get(gear, float("inf"))]
     more = f"Above the limit: {', '.join(above)}." if above else "All keep their limits." if limits else ""
     level = reference.together(box, summaries) if reference else ""
-    words = [sum_words(summaries, box), level, more]
+    words = [sum_words(summaries, box), level, more, *tolerance.short(held)]
     return [page.verdict_box(head, badge, words, doubt=badge[0] == "doubt")]
 
 
@@ -155,8 +171,17 @@ def severest_pair(results: Sequence[Result], box: Summary, forces: Mapping[str, 
 
 def box_sections(results: Sequence[Result], summaries: Mapping[str, Summary], box: Summary) -> list[str]:
     """How sure, what would change it, and what to doubt; each sentence once, with the pairs it is about."""
-    sure = by_pair({gear: motion.sure_sentences(one) for gear, one in summaries.items()})
     inputs = {result.path.name: result for result in results}
+    sure = by_pair(
+        {
+            gear: [
+                *(tolerance.sentences(inputs[name], one) if name in inputs else []),
+                *motion.sure_sentences(one),
+            ]
+            for gear, one in summaries.items()
+            for name in [f"{box['name']}.{gear}.rattle"]
+        }
+    )
     doubts = by_pair(
         {
             gear: motion.doubts(one, motion.is_elastic(inputs[name]))

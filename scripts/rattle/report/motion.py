@@ -9,7 +9,7 @@ import numpy as np
 from rattle.codes import QUANTITIES, STATUSES, SUCCESSES, spoken
 from rattle.figures import histories, period, spectra, style
 from rattle.keys import unit_of
-from rattle.report import page
+from rattle.report import page, tolerance
 from rattle.report.limits import Limits
 from rattle.report.limits import words as limit_words
 from rattle.report.reference import Reference
@@ -167,6 +167,7 @@ def verdict(
         words = f"No summary stands beside {result.path.name}: its class and errors are not known here."
         return [page.verdict_box("No verdict", None, [words], doubt=True)]
     sentences = list(verdict_sentences(summary, limits, reference))
+    sentences += tolerance.short([tolerance.held(result, summary)])
     word = spoken(str(summary.get("rattle_class", "no class")).strip())
     badge = badge_of(summary)
     ended = str(summary["status"]).strip() in _ended_well()
@@ -221,7 +222,7 @@ def impact_words(summary: Summary) -> str:
 def sections(result: Result, summary: Summary) -> list[str]:
     """What stands below the figures: sound, how sure, what would change it, what to doubt."""
     sound = list(sound_sentences(result, summary))
-    sure = list(sure_sentences(summary))
+    sure = [*tolerance.sentences(result, summary), *sure_sentences(summary)]
     return [
         *page.section("How it sounds", sound),
         *page.section("How sure", sure),
