@@ -44,7 +44,7 @@ DEFINED = (
     r"|(?:[Tt]he|[Aa]n?|its|one) (?:[a-z]+ ){1,2}TERM|(?:errors|slopes|multipliers) TERM)"
 )
 # Names of products, bodies of standards and signals of the system, and what stands for the user's own word.
-NAMES = re.compile(r"AMD|EPYC|AVX|BSD|LLVM|ISO|DIN|IEC|IIIC|TR|SI|MB|README|SIG\w+|NAME|GEAR")
+NAMES = re.compile(r"AMD|EPYC|REXS|AVX|BSD|LLVM|ISO|DIN|IEC|IIIC|TR|SI|MB|README|SIG\w+|NAME|GEAR")
 GENERATED = re.compile(r"^<!-- (?!end)[^\n]*-->\n.*?^<!-- end[^\n]*-->$", re.MULTILINE | re.DOTALL)
 FRONT_MATTER = re.compile(r"\A---\n.*?^---$", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"^```.*?^```$|(?:^|(?<=\n\n))(?: {4}[^\n]*\n+)+", re.MULTILINE | re.DOTALL)

@@ -98,10 +98,10 @@ def words(study: sensitivity.Study) -> list[str]:
             numbers = (found.first, found.first_error, found.total, found.total_error)
             rows.append([key, *(f"{column[place]:.3f}" for column in numbers)])
         lines += [table.plain(rows), ""]
-    for found in study.directions:
-        rows = [[found.quantity, "rank correlation"]]
-        rows += [[key, f"{value:+.3f}"] for key, value in zip(study.keys, found.correlation, strict=True)]
-        lines += [table.plain(rows), f"by chance up to {found.by_chance:.3f}", ""]
+    for way in study.directions:
+        rows = [[way.quantity, "rank correlation"]]
+        rows += [[key, f"{value:+.3f}"] for key, value in zip(study.keys, way.correlation, strict=True)]
+        lines += [table.plain(rows), f"by chance up to {way.by_chance:.3f}", ""]
     if study.constant:
         lines.append(f"the same at all points: {', '.join(study.constant)}")
     return lines

@@ -16,6 +16,7 @@ from rattle.codes import QUANTITIES
 from rattle.command import CommandError
 from rattle.namelist import NamelistError, parse_groups
 from rattle.outputs import Writer, text_writer
+from rattle.thresholds import WITH_IMPACTS
 
 # What a design records, and what is analysed of it unless others are named.
 RECORDED = (
@@ -31,7 +32,6 @@ LEAST_BLOCKS = 2
 BLOCKS = 256  # of a design, where neither --blocks nor campaign.size says how many
 NORMAL = 1.959963984540054  # of the interval of a share
 LEAST_POINTS = 4  # of a direction
-LEAST_IMPACTS = 2  # verdict from which a pair rattles: impacts on one flank at least
 
 
 @dataclass(frozen=True)

@@ -26,6 +26,13 @@ class Given:
     place: str
     words: str
 
+    @property
+    def number(self) -> float:
+        """The value of a key that is a number."""
+        if not isinstance(self.value, int | float):
+            raise TypeError(f"{self.words} is no number")
+        return float(self.value)
+
 
 def pair_name(text: str) -> str:
     """A name as the program takes it for a pair: letters, digits, dots and dashes, else underscores."""

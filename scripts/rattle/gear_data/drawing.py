@@ -114,8 +114,8 @@ def along_normal(given: Sequence[Given]) -> list[Given]:
                 raise GearDataError(
                     f"{one.place}: {one.words}: it needs the {key[:-4].replace('_', ' ')} too."
                 )
-            factor *= math.cos(math.radians(float(angle.value)))
-        value = float(f"{float(one.value) * factor:.15g}")
+            factor *= math.cos(math.radians(angle.number))
+        value = float(f"{one.number * factor:.15g}")
         words = f"{one.words}, along the normal"
         found.append(Given(one.pair, "gear", "backlash", value, one.place, words))
     return found

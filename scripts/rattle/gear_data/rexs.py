@@ -97,7 +97,7 @@ def _pair(stage: Component, gears: Sequence[Component], pair: str, path: Path) -
     found = []
     for number, gear in enumerate(gears, 1):
         teeth = gear.given("number_of_teeth", f"teeth_{number}", pair, path)
-        if gear.type != "cylindrical_gear" or any(float(one.value) < 0 for one in teeth):
+        if gear.type != "cylindrical_gear" or any(one.number < 0.0 for one in teeth):
             raise GearDataError(f"{path}: {gear.called} of {pair} is an internal gear, which is not solved.")
         found += teeth
     for attribute, key in SHARED.items():
@@ -105,13 +105,13 @@ def _pair(stage: Component, gears: Sequence[Component], pair: str, path: Path) -
     widths = stage.given("common_face_width", "face_width", pair, path)
     own = [one for gear in gears for one in gear.given("face_width", "face_width", pair, path)]
     if not widths and len(own) == len(gears):
-        widths = [min(own, key=lambda one: one.value)]
+        widths = [min(own, key=lambda one: one.number)]
     found += widths + stage.given("center_distance", "centre_distance", pair, path)
     tips = [gear.given("tip_diameter", f"tip_diameter_{at}", pair, path) for at, gear in enumerate(gears, 1)]
     found += [one for tip in tips for one in tip] if all(tips) else []
     ends = [one for name in BACKLASHES for one in stage.given(name, "backlash", pair, path)]
     if len(ends) == len(BACKLASHES):
-        mean = float(f"{sum(float(one.value) for one in ends) / 2.0:.15g}")
+        mean = float(f"{sum(one.number for one in ends) / 2.0:.15g}")
         words = "mean of " + " and ".join(one.words for one in ends)
         found.append(Given(pair, "gear", "backlash", mean, f"{path}", words))
     return found
@@ -119,14 +119,14 @@ def _pair(stage: Component, gears: Sequence[Component], pair: str, path: Path) -
 
 def _positive(given: list[Given]) -> list[Given]:
     """Both hands of a helix are one angle here."""
-    return [Given(one.pair, one.group, one.key, abs(one.value), one.place, one.words) for one in given]
+    return [Given(one.pair, one.group, one.key, abs(one.number), one.place, one.words) for one in given]
 
 
 def _agreed(given: Sequence[list[Given]]) -> list[Given]:
     """What several components say of one key, once."""
     flat = [one for several in given for one in several]
     for one in flat:
-        if abs(float(one.value) - float(flat[0].value)) > 1e-9 * abs(float(flat[0].value)):
+        if abs(one.number - flat[0].number) > 1e-9 * abs(flat[0].number):
             raise GearDataError(f"{one.place}: {flat[0].words}, but {one.words}; a pair shares it.")
     return flat[:1]
 

@@ -68,7 +68,7 @@ def _checked(values: dict[tuple[str, str, str], Given], sources: Sequence[str]) 
     if not pairs:
         raise GearDataError(f"{', '.join(sources)}: nothing of a gear pair is in there.")
     missing: list[str] = []
-    lines = [f"! Gear data of {', '.join(sources)}, in SI units; behind each value what stands there."]
+    lines = [f"! Gear data of {', '.join(sources)}, in SI units; behind each value what the file has."]
     for group in GROUPS:
         for pair in pairs if group == "gear" else [""]:
             lines += ["", f"&{group}"]

@@ -51,7 +51,7 @@ def read_reference(given: str) -> Reference:
     """
     name, equals, place = given.partition("=")
     path = Path(given if Path(given).exists() or not equals else place)
-    (variant,) = grouped([path]) or [None]
+    variant = next(iter(grouped([path])), None)
     if variant is None or not any(FORCE in solved.summary for solved in variant.pairs.values()):
         raise CommandError(f"{path} has no film force that others could be measured by.")
     return Reference(replace(variant, name=name) if path == Path(place) else variant)

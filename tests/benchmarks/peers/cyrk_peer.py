@@ -29,6 +29,7 @@ def prepare(method: str, scene: scenes.Scene, tolerance: float) -> Callable[[], 
     start = np.array([1.0, 0.0 if film < 2 else scenes.STEADY_ANGLE])
     span = (0.0, float(scenes.PERIODS))
     options = {"method": method, "t_eval": scenes.SAMPLE_TIMES, "args": scene.parameters}
+
     def solve() -> tuple[np.ndarray, float]:
         begin = time.thread_time()
         found = nbsolve2_ivp(address, span, start, rtol=tolerance, atol=tolerance, **options)
