@@ -29,7 +29,7 @@ module judge_group
    use verification, only: verification_t
    use verify_group, only: verified_windows_t, verify_windows
    use vibration_severity, only: severity_of_record, severity_of_samples, vibration_severity_t
-   use window_extremes, only: extremes_of_record, extremes_of_samples
+   use window_extremes, only: extremes_of_record, extremes_of_samples, misses_extremes
    use window_impacts, only: impacts_of_record, impacts_of_samples, list_impacts_of
    use window_motion, only: note_own_motion
    use window_record, only: window_record_t
@@ -190,6 +190,11 @@ contains
                judged%harmonics_by_integrals = classified_by == 0 .or. goes_beyond(group, place)
                judged%samples_per_period = merge(samples_per_period, classified_by, judged%harmonics_by_integrals)
             end associate
+            ! Campaigns have no series.
+            if (judged%series_coarse .and. group%records(place)%periods > 0 .and. allocated(group%accelerations)) &
+               judged%series_misses_extremes = misses_extremes( &
+               extremes_of_samples(problem, group%states(:samples, :, place), group%accelerations), &
+               extremes_of_record(group%records(place)))
          end if
          if (record%periods > 0) then
             judged%extremes = extremes_of_record(record)

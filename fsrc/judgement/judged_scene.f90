@@ -49,6 +49,8 @@ module judged_scene
       logical :: harmonics_by_integrals = .false.
       !> Whether the samples of the scene are too few for its motion
       logical :: series_coarse = .false.
+      !> Whether they miss extremes that a picture would show
+      logical :: series_misses_extremes = .false.
       !> Extremes of the window
       type(window_extremes_t) :: extremes
       type(vibration_severity_t) :: severity

@@ -375,8 +375,7 @@ contains
          else
             call log%line('  no motion above rounding: '//spaced(quantity_word(quantity_rattle_class, rattle%class)))
          end if
-         ! Without a series, samples matter only where the harmonics are theirs.
-         if (judged%series_coarse .and. (scene%output%series .or. .not. spectrum%sampling_sufficient)) &
+         if (has_coarse_series(scene, judged)) &
             call log%line('  warning: '//coarse_sentence(scene, judged))
       end associate
       limit = nint(quantity_value(quantity_model_limit, judged))
@@ -477,6 +476,15 @@ contains
          warning = warning//'contact.stiffness = '//short_text(scene%contact%stiffness_of_width(steel_tooth), 2)//' N/m'
       end if
    end function stiffness_warning
+
+   !> Whether a reader is misled by the samples: by the harmonics where they are theirs, by a series that misses extremes.
+   pure logical function has_coarse_series(scene, judged)
+      type(scene_t), intent(in) :: scene
+      type(judged_scene_t), intent(in) :: judged
+
+      has_coarse_series = judged%series_coarse .and. (.not. judged%rattle%spectrum%sampling_sufficient .or. &
+                                                      (scene%output%series .and. judged%series_misses_extremes))
+   end function has_coarse_series
 
    !> What samples that are too few for the motion mean, and what to do about it.
    pure function coarse_sentence(scene, judged) result(sentence)

@@ -20,7 +20,10 @@ module window_extremes
       type(extreme_t) :: lowest(seen_quantities), highest(seen_quantities)
    end type window_extremes_t
 
-   public :: extremes_of_record, extremes_of_samples
+   !> Share of the range of a quantity by which samples may miss its extremes: as much as a picture hides [-].
+   real(dp), parameter :: hardly = 0.01_dp
+
+   public :: extremes_of_record, extremes_of_samples, misses_extremes
 
 contains
 
@@ -95,5 +98,33 @@ contains
       end subroutine place
 
    end function extremes_of_samples
+
+   !> Whether a picture of samples would miss extremes of the acceleration, or of the film on its logarithmic axis.
+   pure logical function misses_extremes(samples, steps)
+      !> Extremes of the samples
+      type(window_extremes_t), intent(in) :: samples
+      !> Those of the steps between them
+      type(window_extremes_t), intent(in) :: steps
+
+      associate (film => seen_films(1), moved => seen_acceleration)
+         misses_extremes = is_missed(log(samples%lowest(film)%value), log(samples%highest(film)%value), &
+                                     log(steps%lowest(film)%value), log(steps%highest(film)%value)) .or. &
+                           is_missed(samples%lowest(moved)%value, samples%highest(moved)%value, &
+                                     steps%lowest(moved)%value, steps%highest(moved)%value)
+      end associate
+
+   contains
+
+      !> Whether a found range leaves out more than hardly anything of the true one.
+      pure logical function is_missed(found_lowest, found_highest, lowest, highest)
+         real(dp), intent(in) :: found_lowest
+         real(dp), intent(in) :: found_highest
+         real(dp), intent(in) :: lowest
+         real(dp), intent(in) :: highest
+
+         is_missed = max(found_lowest - lowest, highest - found_highest) > hardly*(highest - lowest)
+      end function is_missed
+
+   end function misses_extremes
 
 end module window_extremes

@@ -98,13 +98,13 @@ def lines_of_motion(path: Path) -> list[str | None]:
         f"{um(summary['film_at_status_time'], 5)}: {summary['status_text']}"
         if failed
         else None,
-        *(lines_of_window(summary, given) if "rattle_class" in summary else []),
+        *(lines_of_window(path, summary, given) if "rattle_class" in summary else []),
         ending_of_motion(summary),
         *files(path),
     ]
 
 
-def lines_of_window(summary: Mapping[str, Any], given: Mapping[str, Any]) -> list[str | None]:
+def lines_of_window(path: Path, summary: Mapping[str, Any], given: Mapping[str, Any]) -> list[str | None]:
     verification = f" ({spoken_verification(summary)})" if "verification" in summary else ""
     limits = [ENDS[name] for name in ENDS if name in summary["model_limit"]]
     relative = f" {RELATIVE}" if "gear" in given else ""
@@ -130,7 +130,7 @@ def lines_of_window(summary: Mapping[str, Any], given: Mapping[str, Any]) -> lis
         "motion grow with time."
         if "followed_periods" in summary
         else None,
-        f"  warning: {coarse_words(summary, given)}" if summary["series_coarse"] else None,
+        f"  warning: {coarse_words(summary, given)}" if is_misleading(path, summary) else None,
         f"  warning: {', and '.join(limits)} (model_limit)" if limits else None,
         *(lines_of_verification(summary) if verification else []),
         f"  {summary['motions_text']}",
@@ -193,6 +193,23 @@ def spectrum_words(summary: Mapping[str, Any], verification: str) -> str:
         f"{short(summary['harmonic_distortion'], 3)}, {short(summary['reversals_per_period'], 3)} reversals "
         f"a period: {class_words(summary)}{verification}{start}"
     )
+
+
+def is_misleading(path: Path, summary: Mapping[str, Any]) -> bool:
+    """Whether the harmonics are those of too few samples, or these miss extremes by more than a hundredth."""
+    if not summary["series_coarse"] or not summary["sampling_sufficient"]:
+        return bool(summary["series_coarse"])
+    result = rattle.read(path)
+    window = result.window(summary["window_periods"])
+    for name, quantity, seen in (
+        ("film_thickness", "film", np.log),
+        ("acceleration", "acceleration", np.asarray),
+    ):
+        samples = seen(result.samples(name, window))
+        low, high = (seen(summary[f"{quantity}_{end}"]) for end in ("minimum", "maximum"))
+        if max(samples.min() - low, high - samples.max()) > 0.01 * (high - low):
+            return True
+    return False
 
 
 def coarse_words(summary: Mapping[str, Any], given: Mapping[str, Any]) -> str:
