@@ -157,7 +157,8 @@ contains
             call put_text(scene%resolved_input)
          end if
       else
-         call run_table_task(task, scene, scene%source, command%resume, command%quiet, faults, exit_code, error)
+         call run_table_task(task, scene, scene%source, command%resume, command%quiet, faults, exit_code, &
+                             error, command%verbose)
          if (this_rank() == 0 .and. allocated(error)) call put_error_line(error%message)
       end if
       if (this_rank() == 0 .and. faults%count() > 0) call print_faults(faults)

@@ -122,12 +122,12 @@ contains
       else if (self%carry_on) then
          call self%log%line('  there is no state of an earlier run; all is solved from the start')
       end if
-      call self%log%line('  '//integer_text(size(self%threshold%scan))//' values a trace, then halves down to '// &
+      call self%log%detail('  '//integer_text(size(self%threshold%scan))//' values a trace, then halves down to '// &
                          integer_text(self%threshold%axis%count)//' places; two changes between neighbours of the scan that '// &
                          'cancel each other stay unseen: more &threshold count sees them')
-      if (self%scene%spectrum%verify) call self%log%line('  the ends of a crossing go apart again until both are verified')
+      if (self%scene%spectrum%verify) call self%log%detail('  the ends of a crossing go apart again until both are verified')
       if (has_ends(self%scene, self%threshold%axis%whole)) &
-         call self%log%line('  then the motions of both sides, from '//counted(self%scene%solver%starts, 'start')// &
+         call self%log%detail('  then the motions of both sides, from '//counted(self%scene%solver%starts, 'start')// &
                             ', are followed along '//key_name(self%threshold%axis%position)//' to where they end; in a trace '// &
                             'without a crossing these starts are tried at both ends and in the middle')
    end subroutine report_start
@@ -284,7 +284,7 @@ contains
                                                   'crossing (columns status_below, status_above)')
       ! Where there are more parts than traces, some have none.
       if (outcome%solved > 0_int64) &
-         call log%line('  '//integer_text(outcome%solved)//' scenes; a grid as fine has '// &
+         call log%detail('  '//integer_text(outcome%solved)//' scenes; a grid as fine has '// &
                        integer_text(nint(grid_scenes(scene, threshold), int64))//', '// &
                        short_text(grid_scenes(scene, threshold)/real(outcome%solved, dp), 3)//' times as many')
       call log%line('  '//result_path(scene))

@@ -64,7 +64,7 @@ module table_task
       type(scene_t) :: scene
       !> Input of the scene, for the faults
       character(:), allocatable :: file
-      logical :: quiet = .false., is_begun = .false.
+      logical :: quiet = .false., verbose = .false., is_begun = .false.
       !> Wall time when the look began [s]
       real(dp) :: started = 0.0_dp
       type(campaign_progress_t) :: progress
@@ -128,7 +128,7 @@ module table_task
 contains
 
    !> Run a task and write its files. All ranks call this.
-   subroutine run_table_task(task, scene, file, carry_on, quiet, faults, exit_code, error)
+   subroutine run_table_task(task, scene, file, carry_on, quiet, faults, exit_code, error, verbose)
       !> New
       class(table_task_t), intent(inout) :: task
       !> Checked base scene
@@ -145,6 +145,8 @@ contains
       integer, intent(out) :: exit_code
       !> Set if files could not be written
       type(error_t), allocatable, intent(out) :: error
+      !> All of the log to the terminal; absent: no
+      logical, intent(in), optional :: verbose
       type(opening_t) :: opening
 
       task%started = wall_seconds()
@@ -153,6 +155,7 @@ contains
       opening%scene = scene
       opening%file = file
       opening%quiet = quiet
+      if (present(verbose)) opening%verbose = verbose
       opening%started = task%started
       call task%prepare(file, .false., faults, opening)
       if (this_rank() == 0) call open_task(task, opening, faults, exit_code, error)
@@ -209,7 +212,8 @@ contains
       else
          if (.not. allocated(error)) call task%open_files(error)
          task%log = opening%log
-         if (.not. (allocated(error) .or. opening%is_begun)) call task%log%open(log_path(task%scene), opening%quiet, error)
+         if (.not. (allocated(error) .or. opening%is_begun)) &
+            call task%log%open(log_path(task%scene), opening%quiet, error, opening%verbose)
          exit_code = exit_complete
          if (allocated(error)) exit_code = error%exit_code
       end if
@@ -235,7 +239,7 @@ contains
          self%paths(1)%text = log_path(self%scene)
          call set_aside(self%paths)
          self%is_begun = .true.
-         call self%log%open(log_path(self%scene), self%quiet, self%error)
+         call self%log%open(log_path(self%scene), self%quiet, self%error, self%verbose)
          self%is_refused = allocated(self%error)
          if (self%is_refused) return
          call self%log%line(log_magic//program_version//', '//trim(self%scene%name)//': '//counted(all, 'scene')// &

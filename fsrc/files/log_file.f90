@@ -1,4 +1,5 @@
-!> Log of a scene: every line goes to the terminal and to NAME.log alike.
+!> Log of a scene. A line goes to the terminal and to NAME.log alike, a detail to the terminal only where all of the log is wanted
+!> there, and a row, which says in short what details say, only where not.
 module log_file
    use, intrinsic :: iso_c_binding, only: c_int
    use errors, only: error_t, error_words, exit_system, last_error, raise
@@ -17,17 +18,19 @@ module log_file
       private
       integer(c_int) :: descriptor = -1_c_int
       character(:), allocatable :: path
-      logical :: to_terminal = .true.
+      logical :: to_terminal = .true., verbose = .false.
    contains
       procedure :: open => open_log
       procedure :: line => log_line
+      procedure :: detail => log_detail
+      procedure :: row => log_row
       procedure :: close => close_log
    end type log_t
 
 contains
 
    !> Open a log; one that stands there is replaced.
-   subroutine open_log(self, path, quiet, error)
+   subroutine open_log(self, path, quiet, error, verbose)
       class(log_t), intent(inout) :: self
       !> Path of the log
       character(*), intent(in) :: path
@@ -35,9 +38,12 @@ contains
       logical, intent(in) :: quiet
       !> Set if the log cannot be written
       type(error_t), allocatable, intent(out) :: error
+      !> Details to the terminal as well, instead of rows; absent: no
+      logical, intent(in), optional :: verbose
       type(file_state_t) :: state
 
       self%to_terminal = .not. quiet
+      if (present(verbose)) self%verbose = verbose
       self%path = path
       ! Where there are no locks the log that stands there may be that of a run that began later.
       call expect_own_lock(path(:index(path, '.log', back=.true.) - 1), error)
@@ -61,8 +67,37 @@ contains
       character(*), intent(in) :: text
 
       if (self%to_terminal) call put_line(text)
-      if (self%descriptor >= 0_c_int .and. lost_text() /= self%path) call write_line(self%descriptor, text, self%path)
+      call write_to_file(self, text)
    end subroutine log_line
+
+   !> Write a line that the terminal has where all is wanted there.
+   subroutine log_detail(self, text)
+      class(log_t), intent(in) :: self
+      !> The line
+      character(*), intent(in) :: text
+
+      if (self%to_terminal .and. self%verbose) call put_line(text)
+      call write_to_file(self, text)
+   end subroutine log_detail
+
+   !> Show a row of the short report.
+   subroutine log_row(self, label, text)
+      class(log_t), intent(in) :: self
+      !> What the row shows; empty for what belongs to the row before
+      character(*), intent(in) :: label
+      !> The value with its unit
+      character(*), intent(in) :: text
+      integer, parameter :: width = 14
+
+      if (self%to_terminal .and. .not. self%verbose) call put_line('  '//label//repeat(' ', width - len(label))//text)
+   end subroutine log_row
+
+   subroutine write_to_file(self, text)
+      class(log_t), intent(in) :: self
+      character(*), intent(in) :: text
+
+      if (self%descriptor >= 0_c_int .and. lost_text() /= self%path) call write_line(self%descriptor, text, self%path)
+   end subroutine write_to_file
 
    !> Close the log. One that lost its first word is taken away: no later run could see that it was a log.
    subroutine close_log(self)

@@ -191,7 +191,7 @@ contains
          if (is_pair(scenes(place)) .and. .not. has_trouble(outcome)) rows = [rows, outcome%row]
          if (size(rows) > 0 .and. (is_last_pair(scenes, place) .or. is_last_begun) .and. .not. has_trouble(outcome)) then
             call write_table(whole_gearbox(scenes(place)), count(scenes%gearbox == scenes(place)%gearbox), rows, command%quiet, &
-                             outcome%error)
+                             outcome%error, command%verbose)
             call outcomes(first_pair(scenes, place))%gearbox_lock%release(allocated(outcome%error))
             rows = rows(:0)
          end if
@@ -277,7 +277,7 @@ contains
       case (task_sweep)
          call run_sweep_task(scene, command%quiet, command%resume, status, failed, error)
       case default
-         call run_one_scene(scene, command%quiet, command%resume, judged, status, error)
+         call run_one_scene(scene, command%quiet, command%verbose, command%resume, judged, status, error)
          if (.not. is_success(status)) failed = 1
       end select
    end subroutine run_task

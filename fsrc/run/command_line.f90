@@ -18,7 +18,7 @@ module command_line
       type(word_t), allocatable :: files(:)
       type(override_t), allocatable :: overrides(:)
       logical :: check = .false., template = .false., page = .false., quantities = .false., resume = .false., quiet = .false.
-      logical :: version = .false., help = .false.
+      logical :: verbose = .false., version = .false., help = .false.
       !> Threads of a campaign, scenes that run side by side; 0: as many as there are cores
       integer :: threads = 0
       !> What --template is to print: a ready input or a group, empty for all groups
@@ -84,6 +84,8 @@ contains
          command%check = .true.
       case ('--quiet')
          command%quiet = .true.
+      case ('--verbose')
+         command%verbose = .true.
       case ('--version')
          command%version = .true.
       case ('--help', '-h')
@@ -261,6 +263,7 @@ contains
              '  --threads N            threads of a campaign; scenes that run side by side'//end_of_line// &
              '  --overwrite            replace output files of an earlier run'//end_of_line// &
              '  --quiet                nothing to the terminal but faults'//end_of_line// &
+             '  --verbose              all of the log to the terminal, not the short report'//end_of_line// &
              '  --version              print the version'//end_of_line// &
              '  --help                 print this'//end_of_line// &
              'exit code: 0 complete; 1 a scene failed; 2 bad input, nothing was run; 3 system trouble;'//end_of_line// &

@@ -106,7 +106,7 @@ contains
    end subroutine check_earlier_table
 
    !> Write the table as NAME.summary.nml, print it, and keep it in NAME.log.
-   subroutine write_table(gearbox, pairs, rows, quiet, error)
+   subroutine write_table(gearbox, pairs, rows, quiet, error, verbose)
       !> Scene that stands for all pairs
       type(scene_t), intent(in) :: gearbox
       !> How many pairs there are
@@ -117,12 +117,14 @@ contains
       logical, intent(in) :: quiet
       !> Set if a file could not be written
       type(error_t), allocatable, intent(out) :: error
+      !> All of the log to the terminal; absent: no
+      logical, intent(in), optional :: verbose
       type(together_t) :: sums
       type(summary_t) :: summary
       type(log_t) :: log
       integer :: i, j
 
-      call log%open(log_path(gearbox), quiet, error)
+      call log%open(log_path(gearbox), quiet, error, verbose)
       if (allocated(error)) return
       call log%line(log_magic//program_version//', gearbox '//trim(gearbox%name)//': '//counted(pairs, 'pair'))
       sums = together(pairs, rows)
@@ -158,7 +160,10 @@ contains
          if (len(words_of_motions(rows(i))) > 0) call summary%add('motions_text', words_of_motions(rows(i)))
       end do
       call summary%write(summary_path(gearbox), error)
-      if (.not. allocated(error)) call log%line('  '//summary_path(gearbox))
+      if (.not. allocated(error)) then
+         call log%detail('  '//summary_path(gearbox))
+         call log%row('files', summary_path(gearbox)//', .log')
+      end if
       call log%close()
    end subroutine write_table
 
@@ -201,46 +206,62 @@ contains
       type(scene_t), intent(in) :: gearbox
       type(pair_row_t), intent(in) :: rows(:)
       type(together_t), intent(in) :: sums
-      character(:), allocatable :: class, verdict
       real(dp) :: peak
       integer, allocatable :: order(:)
-      integer :: i, width
+      integer :: i, width, verdicts, classes
 
-      width = max(12, maxval(len_trim(rows%name)) + 2)
-      call log%line('  '//cell('gear', width)//cell('verdict', 28)//cell('class', 28)//cell('least film', 12)// &
-                    cell('peak', 12)//cell('rms', 12)//cell('film force', 12)//'power')
-      call log%line('  '//cell('', width + 56)//cell('[um]', 12)//cell('[m/s2]', 12)//cell('[m/s2]', 12)// &
+      width = max(6, maxval(len_trim(rows%name)) + 2)
+      verdicts = max(9, maxval([(len(verdict_cell(rows(i))), i=1, size(rows))]) + 2)
+      classes = max(7, maxval([(len(class_cell(rows(i))), i=1, size(rows))]) + 2)
+      call log%line('  '//cell('gear', width)//cell('verdict', verdicts)//cell('class', classes)//cell('least film', 12)// &
+                    cell('peak', 10)//cell('rms', 10)//cell('film force', 12)//'power')
+      call log%line('  '//cell('', width + verdicts + classes)//cell('[um]', 12)//cell('[m/s2]', 10)//cell('[m/s2]', 10)// &
                     cell('rms [N]', 12)//'[W]')
       order = by_force(rows)
       do i = 1, size(rows)
          associate (row => rows(order(i)), numbers => rows(order(i))%numbers)
-            verdict = status_name(row%status)
-            class = '-'
-            if (.not. ieee_is_nan(numbers(place_verdict))) &
-               verdict = quantity_word(quantity_verdict, nint(numbers(place_verdict)))
-            if (.not. ieee_is_nan(numbers(1))) class = spaced(quantity_word(recorded(1), nint(numbers(1))))
             peak = numbers(place_maximum)
-            ! What is unknown is compared with nothing.
-            if (.not. ieee_is_nan(numbers(2))) class = class//trim(merge(', verified', '          ', numbers(2) > 0.0_dp))
             if (.not. ieee_is_nan(peak)) peak = max(abs(numbers(place_minimum)), abs(peak))
-            call log%line('  '//cell(trim(row%name), width)//cell(verdict, 28)//cell(class, 28)// &
-                          cell(number_cell(1.0e6_dp*numbers(4)), 12)//cell(number_cell(peak), 12)// &
-                          cell(number_cell(numbers(place_rms)), 12)//cell(number_cell(numbers(place_force)), 12)// &
+            call log%line('  '//cell(trim(row%name), width)//cell(verdict_cell(row), verdicts)//cell(class_cell(row), classes)// &
+                          cell(number_cell(1.0e6_dp*numbers(4)), 12)//cell(number_cell(peak), 10)// &
+                          cell(number_cell(numbers(place_rms)), 10)//cell(number_cell(numbers(place_force)), 12)// &
                           number_cell(numbers(place_power)))
          end associate
       end do
-      call log%line('  '//cell('together, uncorrelated', width + 92)//cell(number_cell(sums%force_uncorrelated), 12)// &
+      width = width + verdicts + classes + 32
+      call log%line('  '//cell('together, uncorrelated', width)//cell(number_cell(sums%force_uncorrelated), 12)// &
                     number_cell(sums%power))
-      call log%line('  '//cell('together, in phase', width + 92)//number_cell(sums%force_in_phase))
-      call log%line('  '//sums%words)
+      call log%line('  '//cell('together, in phase', width)//number_cell(sums%force_in_phase))
+      call log%detail('  '//sums%words)
       do i = 1, size(rows)
          associate (row => rows(order(i)))
             if (ieee_is_nan(row%numbers(place_motions))) cycle
-            if (row%numbers(place_motions) > 1.0_dp) call log%line('  '//trim(row%name)//': '//words_of_motions(row))
+            if (row%numbers(place_motions) > 1.0_dp) call log%detail('  '//trim(row%name)//': '//words_of_motions(row))
          end associate
       end do
       call log%line('  peak and rms of the acceleration'//acceleration_words(gearbox))
    end subroutine report_rows
+
+   !> The verdict on a pair, or how it ended.
+   pure function verdict_cell(row) result(words)
+      type(pair_row_t), intent(in) :: row
+      character(:), allocatable :: words
+
+      words = status_name(row%status)
+      if (.not. ieee_is_nan(row%numbers(place_verdict))) &
+         words = quantity_word(quantity_verdict, nint(row%numbers(place_verdict)))
+   end function verdict_cell
+
+   !> The class of a pair, and whether it is verified.
+   pure function class_cell(row) result(words)
+      type(pair_row_t), intent(in) :: row
+      character(:), allocatable :: words
+
+      words = '-'
+      if (.not. ieee_is_nan(row%numbers(1))) words = spaced(quantity_word(recorded(1), nint(row%numbers(1))))
+      ! What is unknown is compared with nothing.
+      if (.not. ieee_is_nan(row%numbers(2))) words = words//trim(merge(', verified', '          ', row%numbers(2) > 0.0_dp))
+   end function class_cell
 
    !> What is known of all motions of a pair; empty where nothing is.
    pure function words_of_motions(row) result(words)

@@ -25,6 +25,7 @@ module run_scene
    use scene_status, only: is_success, status_complete, status_interrupted, status_name, status_not_written
    use scene_summary, only: write_scene_summary
    use scene_types, only: model_resolved, scene_t
+   use short_report, only: report_short
    use signals, only: caught_signal
    use text, only: integer_text
    use word_list, only: word_t
@@ -37,11 +38,13 @@ contains
 
    !> Run a scene and write its files. An error is one of the system (disk); how the physics ended
    !> stands in the status.
-   subroutine run_one_scene(scene, quiet, carry_on, judged, status, error)
+   subroutine run_one_scene(scene, quiet, verbose, carry_on, judged, status, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Nothing to the terminal
       logical, intent(in) :: quiet
+      !> All of the log to the terminal
+      logical, intent(in) :: verbose
       !> Take up the state of an earlier run, if there is one
       logical, intent(in) :: carry_on
       !> The result
@@ -55,7 +58,7 @@ contains
       type(error_t), allocatable :: of_another_model
 
       if (.not. scene%film%automatic) then
-         call run_by_its_model(scene, quiet, carry_on, judged, status, error)
+         call run_by_its_model(scene, quiet, verbose, carry_on, judged, status, error)
          return
       end if
       status = status_not_written
@@ -66,19 +69,21 @@ contains
       if (allocated(of_another_model)) then
          chosen = closure_instead(scene, chosen, 'in the earlier run')
       else
-         call run_by_its_model(chosen, quiet, carry_on, judged, status, error)
+         call run_by_its_model(chosen, quiet, verbose, carry_on, judged, status, error)
          if (allocated(error) .or. .not. nodes_stopped(judged%status)) return
          chosen = closure_instead(scene, chosen, status_name(judged%status))
       end if
-      call run_by_its_model(chosen, quiet, carry_on, judged, status, error)
+      call run_by_its_model(chosen, quiet, verbose, carry_on, judged, status, error)
    end subroutine run_one_scene
 
    !> Run a scene whose model of the film is found. Where one was to be chosen and films in nodes stop, nothing is written.
-   subroutine run_by_its_model(scene, quiet, carry_on, judged, status, error)
+   subroutine run_by_its_model(scene, quiet, verbose, carry_on, judged, status, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Nothing to the terminal
       logical, intent(in) :: quiet
+      !> All of the log to the terminal
+      logical, intent(in) :: verbose
       !> Take up the state of an earlier run, if there is one
       logical, intent(in) :: carry_on
       !> The result
@@ -112,7 +117,7 @@ contains
          judged%status = status
          return
       end if
-      if (.not. allocated(error)) call log%open(log_path(scene), quiet, error)
+      if (.not. allocated(error)) call log%open(log_path(scene), quiet, error, verbose)
       if (allocated(error)) return
       call report_start(log, scene, judged)
       if (state%orbit > 0) then
@@ -162,7 +167,10 @@ contains
       else
          call place_files(result_files(scene), summary_path(scene), error)
       end if
-      if (.not. allocated(error)) call report_ending(log, scene, judged, solve_seconds)
+      if (.not. allocated(error)) then
+         call report_ending(log, scene, judged, solve_seconds)
+         call report_short(log, scene, judged)
+      end if
       if (allocated(error)) judged%status = status_not_written
       status = judged%status
       if (allocated(error)) call log%line('  '//error%message)

@@ -1,4 +1,4 @@
-!> What the terminal and the log report of a scene.
+!> What the log of a scene reports, and the terminal where all of it is wanted there.
 module scene_report
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use coexisting_motions, only: motions_sentence, own_start_words
@@ -36,8 +36,9 @@ module scene_report
    !> Acceleration of level 0 dB, by ISO 1683 [m/s2]
    real(dp), parameter :: level_reference = 1.0e-6_dp
 
-   public :: acceleration_words, report_head, report_start, report_ending, law_sentence, resolved_lines, speed_meaning, &
-             verdict_sentence
+   public :: acceleration_in_short, acceleration_words, deflects_in_words, film_force_in_short, has_coarse_series, law_sentence, &
+             report_ending, report_head, report_start, resolved_lines, samples_key, speed_meaning, steel_stiffness_in_words, &
+             value_words, verdict_in_short, verdict_sentence
 
 contains
 
@@ -65,17 +66,21 @@ contains
       type(scene_t), intent(in) :: scene
       !> What follows from it
       type(judged_scene_t), intent(in) :: judged
+      integer :: i
 
-      call report_head(log, scene, law_sentence(scene))
-      if (scene%gear%given) call log%line('  profile shift sum '//short_text(scene%teeth%shift_sum, 3)//', contact ratio '// &
+      call log%line(log_magic//program_version//', scene '//trim(scene%name)//': '//law_sentence(scene))
+      do i = 1, size(scene%warnings)
+         call log%detail('  '//scene%warnings(i)%text)
+      end do
+      if (scene%gear%given) call log%detail('  profile shift sum '//short_text(scene%teeth%shift_sum, 3)//', contact ratio '// &
                                           short_text(scene%teeth%contact_ratio, 4)//', overlap ratio '// &
                                           short_text(scene%teeth%overlap_ratio, 4))
       if (judged%resolved%steady_film > 0.0_dp) then
          call report_part(log, judged, part_scene)
          if (.not. judged%resolved%natural_frequency > 0.0_dp) &
-            call log%line('  no natural frequency: small motions about the steady film are overdamped')
+            call log%detail('  no natural frequency: small motions about the steady film are overdamped')
       else
-         call log%line('  no rigid piezo-viscous film carries the static load')
+         call log%detail('  no rigid piezo-viscous film carries the static load')
       end if
    end subroutine report_start
 
@@ -94,7 +99,7 @@ contains
          if (ieee_is_nan(quantity_value(i, judged))) cycle
          words = words//', '//trim(quantity_table(i)%name)//' '//value_words(i, quantity_value(i, judged))
       end do
-      if (len(words) > 0) call log%line('  '//spaced(words(3:)))
+      if (len(words) > 0) call log%detail('  '//spaced(words(3:)))
    end subroutine report_part
 
    !> A known value as a person says it.
@@ -318,8 +323,8 @@ contains
 
       iterations = 0.0_dp
       if (judged%ending%count%steps > 0) iterations = quantity_value(quantity_iterations_per_step, judged)
-      if (judged%judged) call log%line('  '//verdict_sentence(judged))
-      call log%line('  '//integer_text(judged%ending%count%steps)//' steps in '//short_text(solve_seconds, 3)//' s, '// &
+      if (judged%judged) call log%detail('  '//verdict_sentence(judged))
+      call log%detail('  '//integer_text(judged%ending%count%steps)//' steps in '//short_text(solve_seconds, 3)//' s, '// &
                     short_text(iterations, 3)//' iterations a step, '//integer_text(judged%ending%count%cuts)// &
                     ' steps cut where the film law had no value')
       if (.not. is_success(judged%status)) then
@@ -327,18 +332,18 @@ contains
          if (judged%ending%film > 0.0_dp) film = ', film '//micrometres(judged%ending%film)//' um'
          if (judged%ending%lost_film > 0) film = film//' on the '//trim(merge('drive', 'coast', judged%ending%lost_film == 1))// &
             ' flank under M = '//short_text(judged%ending%lost_load/judged%resolved%problem%contact%film%closure%load_unit, 3)
-         call log%line('  '//status_name(judged%status)//' at t = '//short_text(judged%ending%time, 6)//' s'//film//': '// &
+         call log%detail('  '//status_name(judged%status)//' at t = '//short_text(judged%ending%time, 6)//' s'//film//': '// &
                        status_sentence(judged%status))
       end if
       if (judged%judged) call report_window(log, scene, judged)
       do part = part_window, part_cost
          call report_part(log, judged, part)
       end do
-      if (scene%film%model_words /= '') call log%line('  the film is solved '//trim(scene%film%model_words))
-      if (scene%output%series) call log%line('  '//result_path(scene))
-      if (has_motions_table(scene)) call log%line('  '//motions_path(scene))
-      if (scene%output%profiles) call log%line('  '//profiles_path(scene))
-      call log%line('  '//summary_path(scene))
+      if (scene%film%model_words /= '') call log%detail('  the film is solved '//trim(scene%film%model_words))
+      if (scene%output%series) call log%detail('  '//result_path(scene))
+      if (has_motions_table(scene)) call log%detail('  '//motions_path(scene))
+      if (scene%output%profiles) call log%detail('  '//profiles_path(scene))
+      call log%detail('  '//summary_path(scene))
    end subroutine report_ending
 
    !> The window: extremes, spectrum, class, regime.
@@ -350,52 +355,52 @@ contains
       integer :: limit
 
       associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest)
-         call log%line('  film '//micrometres(lowest(seen_films(1))%value)//' to '//micrometres(highest(seen_films(1))%value)// &
+         call log%detail('  film '//micrometres(lowest(seen_films(1))%value)//' to '//micrometres(highest(seen_films(1))%value)// &
                        ' um, acceleration '// &
                        short_text(lowest(seen_acceleration)%value, digits_of_extremes)//' to '// &
                        short_text(highest(seen_acceleration)%value, digits_of_extremes)//' m/s2'//acceleration_words(scene))
       end associate
       associate (rattle => judged%rattle, spectrum => judged%rattle%spectrum)
          if (spectrum%moving) then
-            call log%line('  '//at_least(spectrum%count_is_bound)//integer_text(spectrum%harmonic_count)//' harmonics, '// &
+            call log%detail('  '//at_least(spectrum%count_is_bound)//integer_text(spectrum%harmonic_count)//' harmonics, '// &
                'harmonic distortion '// &
                           at_least(spectrum%distortion_is_bound)//short_text(spectrum%harmonic_distortion, 3)//', '// &
                           short_text(rattle%reversals_per_period, 3)//' reversals a period: '// &
                           spaced(quantity_word(quantity_rattle_class, rattle%class))// &
                           certainty())
             if (judged%statistics%periods > 0) then
-               call log%line('  Extremes, rms, impacts and harmonics are those of '// &
+               call log%detail('  Extremes, rms, impacts and harmonics are those of '// &
                              counted(judged%statistics%periods, 'period')//' that the motion was followed, with standard '// &
                              'errors by batches of '//counted(judged%statistics%batch_periods, 'period')// &
                              '; extremes of an irregular motion grow with time.')
             else if (spectrum%sampling_sufficient .and. any(rattle%class == [class_irregular, class_irregular_so_far])) then
-               call log%line('  The motion does not repeat within its window of '//counted(scene%spectrum%periods, 'period')// &
+               call log%detail('  The motion does not repeat within its window of '//counted(scene%spectrum%periods, 'period')// &
                              ': other windows have other numbers; raise spectrum.periods for steadier ones.')
             end if
          else
-            call log%line('  no motion above rounding: '//spaced(quantity_word(quantity_rattle_class, rattle%class)))
+            call log%detail('  no motion above rounding: '//spaced(quantity_word(quantity_rattle_class, rattle%class)))
          end if
          if (has_coarse_series(scene, judged)) &
-            call log%line('  warning: '//coarse_sentence(scene, judged))
+            call log%detail('  warning: '//coarse_sentence(scene, judged))
       end associate
       limit = nint(quantity_value(quantity_model_limit, judged))
-      if (limit /= within_model) call log%line('  warning: '//model_limit_sentence(limit)//' (model_limit)')
+      if (limit /= within_model) call log%detail('  warning: '//model_limit_sentence(limit)//' (model_limit)')
       call report_verification(log, judged)
-      if (allocated(judged%coexisting%motions)) call log%line('  '//motions_sentence(judged%coexisting))
-      if (judged%coexisting%starts_solved > 1) call log%line('  '//integer_text(judged%coexisting%starts_solved - 1)// &
+      if (allocated(judged%coexisting%motions)) call log%detail('  '//motions_sentence(judged%coexisting))
+      if (judged%coexisting%starts_solved > 1) call log%detail('  '//integer_text(judged%coexisting%starts_solved - 1)// &
          ' further starts were followed for '//integer_text(judged%coexisting%extra_periods)//' periods')
-      call log%line('  '//regime_sentence(judged%regime))
+      call log%detail('  '//regime_sentence(judged%regime))
       if (judged%regime%law_contradicted) &
-         call log%line('  warning: the film law of the scene does not fit this regime (law_contradicted); '// &
+         call log%detail('  warning: the film law of the scene does not fit this regime (law_contradicted); '// &
                        fitting_law(judged%regime%regime))
       ! Of films that do not bend it is not a number.
       if (judged%resolved%problem%contact%film%bends .and. .not. judged%resolved%problem%contact%film%in_nodes) then
          if (nint(quantity_value(quantity_closure_range, judged)) == outside_closure) &
-            call log%line('  warning: '//closure_range_sentence(judged%resolved%problem%contact%film, largest_load(judged), &
+            call log%detail('  warning: '//closure_range_sentence(judged%resolved%problem%contact%film, largest_load(judged), &
                                                                 judged%regime%pressure_maximum))
       end if
       warning = stiffness_warning(scene, 'under its largest load', quantity_value(quantity_deflection_share, judged))
-      if (len(warning) > 0) call log%line('  '//warning)
+      if (len(warning) > 0) call log%detail('  '//warning)
 
    contains
 
@@ -425,35 +430,63 @@ contains
       !> A scene that could be judged
       type(judged_scene_t), intent(in) :: judged
       character(:), allocatable :: sentence
+
+      sentence = verdict_in_short(judged)//', '//trim(sounds(judged%rattle%class))//': film force rms '// &
+                 film_force_in_short(judged)//' N, acceleration rms '//acceleration_in_short(judged, '')
+   end function verdict_sentence
+
+   !> Verdict and class, and whether each is verified.
+   pure function verdict_in_short(judged) result(words)
+      !> A scene that could be judged
+      type(judged_scene_t), intent(in) :: judged
+      character(:), allocatable :: words
       real(dp) :: verified
 
-      sentence = quantity_word(quantity_verdict, nint(quantity_value(quantity_verdict, judged)))
+      words = quantity_word(quantity_verdict, nint(quantity_value(quantity_verdict, judged)))
       verified = quantity_value(quantity_verdict_verified, judged)
-      if (.not. ieee_is_nan(verified)) sentence = sentence//verified_in_brackets(verified > 0.0_dp)
-      sentence = sentence//'; '//spaced(quantity_word(quantity_rattle_class, judged%rattle%class))
-      if (judged%verification%exists) sentence = sentence//verified_in_brackets(judged%verification%verified)
-      sentence = sentence//', '//trim(sounds(judged%rattle%class))
-      associate (severity => judged%severity, errors => judged%statistics%severity)
-         sentence = sentence//': film force rms '//short_text(severity%film_force_rms, 4)// &
-                    scatter(errors%film_force_rms, severity%film_force_rms)//' N, acceleration rms '// &
-                    short_text(severity%acceleration_rms, 4)//scatter(errors%acceleration_rms, severity%acceleration_rms)//' m/s2'
+      if (.not. ieee_is_nan(verified)) words = words//verified_in_brackets(verified > 0.0_dp)
+      words = words//'; '//spaced(quantity_word(quantity_rattle_class, judged%rattle%class))
+      if (judged%verification%exists) words = words//verified_in_brackets(judged%verification%verified)
+   end function verdict_in_short
+
+   !> The rms of the film force [N].
+   pure function film_force_in_short(judged) result(words)
+      !> A scene that could be judged
+      type(judged_scene_t), intent(in) :: judged
+      character(:), allocatable :: words
+
+      words = with_scatter(judged, judged%severity%film_force_rms, judged%statistics%severity%film_force_rms)
+   end function film_force_in_short
+
+   !> The rms of the acceleration with its unit, and as a level.
+   pure function acceleration_in_short(judged, meaning) result(words)
+      !> A scene that could be judged
+      type(judged_scene_t), intent(in) :: judged
+      !> Words behind the unit; absent: that it is the rms
+      character(*), intent(in), optional :: meaning
+      character(:), allocatable :: words
+
+      associate (rms => judged%severity%acceleration_rms)
+         words = with_scatter(judged, rms, judged%statistics%severity%acceleration_rms)//' m/s2'
+         if (present(meaning)) then
+            words = words//meaning
+         else
+            words = words//' rms'
+         end if
+         if (rms > 0.0_dp) words = words//' ('//short_text(20.0_dp*log10(rms/level_reference), 4)//' dB re 1e-6 m/s2)'
       end associate
-      if (judged%severity%acceleration_rms > 0.0_dp) sentence = sentence//' ('// &
-         short_text(20.0_dp*log10(judged%severity%acceleration_rms/level_reference), 4)//' dB re 1e-6 m/s2)'
+   end function acceleration_in_short
 
-   contains
+   !> A number, of an irregular motion with two of its standard errors.
+   pure function with_scatter(judged, number, standard_error) result(words)
+      type(judged_scene_t), intent(in) :: judged
+      real(dp), intent(in) :: number
+      real(dp), intent(in) :: standard_error
+      character(:), allocatable :: words
 
-      !> Two standard errors of a number of an irregular motion; empty for others.
-      pure function scatter(standard_error, number) result(words)
-         real(dp), intent(in) :: standard_error
-         real(dp), intent(in) :: number
-         character(:), allocatable :: words
-
-         words = ''
-         if (judged%statistics%periods > 0) words = ' +- '//error_text(2.0_dp*standard_error, number, 4)
-      end function scatter
-
-   end function verdict_sentence
+      words = short_text(number, 4)
+      if (judged%statistics%periods > 0) words = words//' +- '//error_text(2.0_dp*standard_error, number, 4)
+   end function with_scatter
 
    !> That rigid teeth are no fair assumption; empty where they are, or where the teeth have a stiffness.
    pure function stiffness_warning(scene, when, share) result(warning)
@@ -465,17 +498,36 @@ contains
       character(:), allocatable :: warning
 
       warning = ''
-      if (scene%contact%stiffness > 0.0_dp .or. share <= deflection_limit) return
-      warning = short_text(100.0_dp*share, 2)//' % of'
-      if (share > 1.0_dp) warning = short_text(share, 2)//' times'
-      warning = 'warning: '//when//' a steel tooth deflects by '//warning//' the film, while these teeth are rigid '// &
-                '(stiffness_matters). Elastic teeth may move otherwise, and fall into another class: steel ones have '
-      if (scene%gear%given) then
-         warning = warning//'gear.tooth_stiffness = '//short_text(steel_tooth, 2)//' N/m2'
-      else
-         warning = warning//'contact.stiffness = '//short_text(scene%contact%stiffness_of_width(steel_tooth), 2)//' N/m'
-      end if
+      if (deflects_in_words(scene, share) == '') return
+      warning = 'warning: '//when//' a steel tooth deflects by '//deflects_in_words(scene, share)//' the film, while these '// &
+                'teeth are rigid (stiffness_matters). Elastic teeth may move otherwise, and fall into another class: steel '// &
+                'ones have '//steel_stiffness_in_words(scene)
    end function stiffness_warning
+
+   !> By how much of the film a steel tooth would deflect; empty where that is little, or where the teeth have a stiffness.
+   pure function deflects_in_words(scene, share) result(words)
+      type(scene_t), intent(in) :: scene
+      !> Share of the film [-]
+      real(dp), intent(in) :: share
+      character(:), allocatable :: words
+
+      words = ''
+      if (scene%contact%stiffness > 0.0_dp .or. share <= deflection_limit) return
+      words = short_text(100.0_dp*share, 2)//' % of'
+      if (share > 1.0_dp) words = short_text(share, 2)//' times'
+   end function deflects_in_words
+
+   !> The key that makes teeth elastic, with the value of steel.
+   pure function steel_stiffness_in_words(scene) result(words)
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: words
+
+      if (scene%gear%given) then
+         words = 'gear.tooth_stiffness = '//short_text(steel_tooth, 2)//' N/m2'
+      else
+         words = 'contact.stiffness = '//short_text(scene%contact%stiffness_of_width(steel_tooth), 2)//' N/m'
+      end if
+   end function steel_stiffness_in_words
 
    !> Whether a reader is misled by the samples: by the harmonics where they are theirs, by a series that misses extremes.
    pure logical function has_coarse_series(scene, judged)
@@ -486,6 +538,15 @@ contains
                                                       (scene%output%series .and. judged%series_misses_extremes))
    end function has_coarse_series
 
+   !> The key that gives a series more samples.
+   pure function samples_key(scene) result(key)
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: key
+
+      key = 'solver.samples_per_period'
+      if (scene%solver%method == method_newmark) key = 'solver.steps_per_period'
+   end function samples_key
+
    !> What samples that are too few for the motion mean, and what to do about it.
    pure function coarse_sentence(scene, judged) result(sentence)
       type(scene_t), intent(in) :: scene
@@ -493,8 +554,7 @@ contains
       character(:), allocatable :: sentence
       character(:), allocatable :: key
 
-      key = 'solver.samples_per_period'
-      if (scene%solver%method == method_newmark) key = 'solver.steps_per_period'
+      key = samples_key(scene)
       if (judged%rattle%spectrum%sampling_sufficient .and. judged%harmonics_by_integrals) then
          sentence = 'the samples of the series are too few for its motion: take peaks from its rows of the extremes, '// &
                     'and harmonics from here, where they are integrals over the steps (series_coarse), or raise '//key// &
@@ -517,21 +577,21 @@ contains
       type(judged_scene_t), intent(in) :: judged
 
       if (.not. judged%verification%exists) return
-      call log%line('  '//verification_sentence(judged%verification))
+      call log%detail('  '//verification_sentence(judged%verification))
       if (size(judged%verification%harmonic_errors) > 0 .and. .not. judged%verification%by_statistics) &
-         call log%line('  error of the film at most '//error_text(judged%verification%film_error, 1.0_dp, digits_of_extremes)// &
+         call log%detail('  error of the film at most '//error_text(judged%verification%film_error, 1.0_dp, digits_of_extremes)// &
                        ' of it, of the extremes of the acceleration '// &
                        error_text(judged%verification%acceleration_minimum_error, &
                                   judged%extremes%lowest(seen_acceleration)%value, digits_of_extremes)//' and '// &
                        error_text(judged%verification%acceleration_maximum_error, &
                                   judged%extremes%highest(seen_acceleration)%value, digits_of_extremes)//' m/s2')
       associate (orbit => judged%orbit)
-         if (orbit%period > 0) call log%line('  the motion repeats after '//integer_text(orbit%period)// &
+         if (orbit%period > 0) call log%detail('  the motion repeats after '//integer_text(orbit%period)// &
             trim(merge(' period ', ' periods', orbit%period == 1))//': '//quantity_word(quantity_orbit_stability, &
                nint(quantity_value(quantity_orbit_stability, judged)))// &
                                              ', largest Floquet multiplier '//short_text(abs(orbit%multipliers(1)), 3))
       end associate
-      if (orbit_sentence(judged%orbit_outcome) /= '') call log%line('  '//orbit_sentence(judged%orbit_outcome))
+      if (orbit_sentence(judged%orbit_outcome) /= '') call log%detail('  '//orbit_sentence(judged%orbit_outcome))
    end subroutine report_verification
 
    !> A length [m] as a number of micrometres.

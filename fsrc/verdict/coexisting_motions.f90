@@ -53,7 +53,7 @@ module coexisting_motions
    !> Probability with which a motion of a larger share of the starts would have been met [-].
    real(dp), parameter :: certainty = 0.95_dp
 
-   public :: loudest_motion, quietest_motion, largest_missed_share, motions_sentence, own_start_words
+   public :: loudest_motion, quietest_motion, largest_missed_share, motions_in_short, motions_sentence, own_start_words
 
 contains
 
@@ -125,6 +125,25 @@ contains
                        ' of the sampled starts (95 %)'
       end associate
    end function motions_sentence
+
+   !> The same in one line, however many there are: their number, the loudest, what was not seen.
+   pure function motions_in_short(coexisting) result(words)
+      type(coexisting_motions_t), intent(in) :: coexisting
+      character(:), allocatable :: words
+
+      words = ''
+      if (.not. allocated(coexisting%motions)) return
+      words = motions_sentence(coexisting)
+      if (size(coexisting%motions) == 1 .and. coexisting%unsettled_starts == 0) return
+      words = integer_text(size(coexisting%motions))//' of '//integer_text(coexisting%starts_solved)//' starts'
+      associate (loudest => coexisting%motions(loudest_motion(coexisting)))
+         if (size(coexisting%motions) > 1) words = words//', loudest '// &
+            spaced(quantity_word(quantity_rattle_class, loudest%class))//' '//short_text(loudest%acceleration_rms, 4)//' m/s2'
+      end associate
+      if (coexisting%unsettled_starts > 0) words = words//'; '//integer_text(coexisting%unsettled_starts)//' unsettled'
+      if (coexisting%drawn_starts > 0) words = words//'; any other below '// &
+         percent(largest_missed_share(coexisting%drawn_starts))//' (95 %)'
+   end function motions_in_short
 
    !> A share in whole percent, rounded up.
    pure function percent(share) result(words)

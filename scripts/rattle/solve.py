@@ -175,7 +175,8 @@ def run(
         command += ["--threads", str(threads)]
     # From here on what fails must not leave the temporary folder behind.
     place = Path(folder) if folder is not None else Path(tempfile.mkdtemp(prefix="rattle-"))
-    command += ["--output", os.fspath(place), "--"]
+    # All of the log names each file in a line of its own.
+    command += ["--verbose", "--output", os.fspath(place), "--"]
     try:
         ended = solver_process.solve(
             command + ["-" if text is not None else _file(input)], settings, text or ""

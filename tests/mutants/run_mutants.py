@@ -53,6 +53,7 @@ TESTS_OF_FILES = {
     "odd_numbers": "mistaken_units sensible_numbers",
     "input_difference": "edited_inputs drag carrying_on",
     "summary_file": "mistaken_units tasks logs",
+    "short_report": "short_logs",
     "scene_report": "two_flanks tooth_stiffness drag gear_inputs logs tasks",
     "scene_summary": "gear_inputs logs state_at_failure tasks",
     "run_sweep": "coarse_series logs tasks carrying_on run_endings",

@@ -140,7 +140,9 @@ def test_a_scene_says_why(rows: Path, run) -> None:
     (rows / "single.nml").write_text(GEAR)
     for force, words in ((60.0, "fitted to films up to M = 2"), (2.0, "")):
         folder = f"why_{force:g}"
-        ended = run("--output", folder, "--set", f"load.force_amplitude={force}", "single.nml", cwd=rows)
+        ended = run(
+            "--verbose", "--output", folder, "--set", f"load.force_amplitude={force}", "single.nml", cwd=rows
+        )
         assert ended.returncode == 0, ended.stderr
         reported = summary_of(rows / folder / "single.summary.nml")
         assert words in reported["model_text"] and reported["model_text"][:40] in ended.stdout

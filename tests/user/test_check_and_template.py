@@ -155,7 +155,8 @@ def test_version(run, repository: Path, tmp_path: Path) -> None:
 def test_help_names_every_option(run, tmp_path: Path) -> None:
     ended = run("--help", cwd=tmp_path)
     assert (ended.returncode, ended.stderr) == (0, "")
-    for option in ("check", "template", "keys", "set", "output", "overwrite", "quiet", "version", "help"):
+    options = "check template keys set output overwrite quiet verbose version help"
+    for option in options.split():
         assert f"--{option}" in ended.stdout
     assert run("-h", cwd=tmp_path).stdout == ended.stdout
 

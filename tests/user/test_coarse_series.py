@@ -36,7 +36,7 @@ def impact(run, scene_text, tmp_path: Path):
 
     def solve(**changes: dict[str, str]):
         (tmp_path / "impact.nml").write_text(scene_text(**(IMPACT | changes)))
-        done = run("impact.nml", cwd=tmp_path)
+        done = run("--verbose", "impact.nml", cwd=tmp_path)
         assert done.returncode == 0, done.stdout + done.stderr
         folder = tmp_path / "results"
         return package.read(folder / "impact.rattle"), summary_of(folder / "impact.summary.nml"), done.stdout

@@ -219,7 +219,7 @@ def solve_pair(run, repository: Path, folder: Path, place: int, *keys: str) -> t
     (folder / "gearbox_run_up.csv").write_bytes((repository / "input" / "gearbox_run_up.csv").read_bytes())
     (folder / "scene.nml").write_text(text.replace("'campaign'", "'motion'"))
     settings = [word for key in keys for word in ("--set", key)]
-    ended = run("--overwrite", *settings, "scene.nml", cwd=folder)
+    ended = run("--verbose", "--overwrite", *settings, "scene.nml", cwd=folder)
     assert ended.returncode == 0, ended.stderr
     return ended.stdout, summary_of(folder / "results" / "scene.summary.nml")
 

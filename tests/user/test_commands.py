@@ -92,10 +92,10 @@ def test_quiet_still_tells_faults(run, tmp_path: Path) -> None:
     assert ended.stderr.startswith("absent.nml: ")
 
 
-def test_log_holds_what_the_terminal_showed(run, scene_text, tmp_path: Path) -> None:
+def test_verbose_shows_all_of_the_log(run, scene_text, tmp_path: Path) -> None:
     for name in ("a", "b"):
         (tmp_path / f"{name}.nml").write_text(scene_text())
-    ended = run("a.nml", "b.nml", cwd=tmp_path)
+    ended = run("--verbose", "a.nml", "b.nml", cwd=tmp_path)
     logs = [(tmp_path / "results" / f"{name}.log").read_text() for name in ("a", "b")]
     assert ended.stdout == "".join(logs)
     for name, log in zip(("a", "b"), logs, strict=True):

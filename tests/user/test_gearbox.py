@@ -61,7 +61,7 @@ def solve(run, tmp_path: Path):
         (tmp_path / "scenes.csv").write_text(
             "shaft.speed_rpm,gear.drag_torque\n800,0.05\n750,0.1\n900,0.07\n"
         )
-        ended = run(f"{name}.nml", "--overwrite", *arguments, cwd=tmp_path, timeout=600.0)
+        ended = run(f"{name}.nml", "--verbose", "--overwrite", *arguments, cwd=tmp_path, timeout=600.0)
         assert ended.returncode == ends, ended.stderr
         return ended
 

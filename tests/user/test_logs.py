@@ -305,7 +305,9 @@ def solve(run, tmp_path_factory):
 
     def call(name: str, text: str, *options: object, code: int = 0) -> Path:
         (folder / f"{name}.nml").write_text(text)
-        ended = run(f"{name}.nml", "--output", folder / name, *options, cwd=folder, timeout=600.0)
+        ended = run(
+            f"{name}.nml", "--verbose", "--output", folder / name, *options, cwd=folder, timeout=600.0
+        )
         assert ended.returncode == code, ended.stderr
         path = folder / name / f"{name}.rattle"
         assert ended.stdout == path.with_suffix(".log").read_text()

@@ -134,7 +134,7 @@ def test_speeds_of_a_shaft_that_swing_too_far(run, tmp_path: Path) -> None:
 
 def test_log_summary_and_report_tell_it(run, tmp_path: Path) -> None:
     (tmp_path / "pair.nml").write_text(PAIR.replace("28.96", "0.49"))
-    ended = run("pair.nml", cwd=tmp_path)
+    ended = run("--verbose", "pair.nml", cwd=tmp_path)
     assert ended.returncode == 0, ended.stderr
     (warning,) = warnings_of(ended.stdout)
     assert warning.startswith("  warning: pair.nml:2: &gear helix_angle_deg = 0.49 deg")
@@ -185,7 +185,7 @@ def test_the_acceleration_of_a_gear_is_said_to_be_relative_to_its_shaft(
 ) -> None:
     (tmp_path / "pair.nml").write_text(PAIR)
     (tmp_path / "scene.nml").write_text(scene_text())
-    ended = run("pair.nml", "scene.nml", cwd=tmp_path)
+    ended = run("--verbose", "pair.nml", "scene.nml", cwd=tmp_path)
     assert ended.returncode == 0, ended.stderr
     pair, scene = (tmp_path / "results" / f"{name}.summary.nml" for name in ("pair", "scene"))
     said = "relative to the shaft, along the line of action"

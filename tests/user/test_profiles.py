@@ -110,7 +110,7 @@ def test_phases_of_the_last_period(run, tmp_path: Path) -> None:
     (tmp_path / "one.nml").write_text(
         GEAR.replace("profiles = .true.", "profiles = .true., profile_count = 8")
     )
-    ended = run("--output", "out", "--set", "spectrum.verify=false", "one.nml", cwd=tmp_path)
+    ended = run("--verbose", "--output", "out", "--set", "spectrum.verify=false", "one.nml", cwd=tmp_path)
     assert ended.returncode == 0 and "out/one.profiles.rattle" in ended.stdout, ended.stderr
     found = profiles.profiles_of(package.read(tmp_path / "out/one.rattle"))
     phases = [one.time * 30.0 - 2.0 for one in found]

@@ -338,7 +338,7 @@ HEAVY = """&contact radius = 9.1e-3, length = 0.019, backlash = 110.0e-6, stiffn
 def test_a_stop_tells_when_where_and_under_which_load(run, tmp_path: Path) -> None:
     """Thin oil under loads of M = 30 and more: 24 nodes lose the film, the closure follows it."""
     (tmp_path / "heavy.nml").write_text(HEAVY)
-    ended = run("--output", "out", "heavy.nml", cwd=tmp_path)
+    ended = run("--verbose", "--output", "out", "heavy.nml", cwd=tmp_path)
     assert ended.returncode == 1, ended.stderr
     reported = summary_of(tmp_path / "out/heavy.summary.nml")
     assert reported["status"] == "film_cycles" and reported["film_at_status_time"] > 0.0

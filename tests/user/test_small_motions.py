@@ -133,7 +133,7 @@ def test_an_overdamped_scene_has_no_natural_frequency(
     light["solver"] = TAYLOR
     (tmp_path / "light.nml").write_text(scene_text(**light))
     assert OVERDAMPED in run("--check", "light.nml", cwd=tmp_path).stdout
-    ended = run("light.nml", cwd=tmp_path)
+    ended = run("--verbose", "light.nml", cwd=tmp_path)
     assert ended.returncode == 0 and OVERDAMPED in ended.stdout
     summary = summary_of(tmp_path / "results" / "light.summary.nml")
     assert summary["steady_film"] > 0.0

@@ -68,7 +68,7 @@ def test_the_state_at_failure_is_where_the_series_ends(
     (tmp_path / "scene.nml").write_text(
         scene_text(**(changes | {"solver": solver, "output": {"columns": COLUMNS}}))
     )
-    ended = run("scene.nml", cwd=tmp_path)
+    ended = run("--verbose", "scene.nml", cwd=tmp_path)
     assert ended.returncode == 1, ended.stderr
     reported = summary_of(tmp_path / "results" / "scene.summary.nml")
     assert reported["status"] == status
@@ -96,7 +96,7 @@ def test_a_motion_without_a_film_to_start_from_tells_none(run, scene_text, tmp_p
             load={"steady_force": "2000.0"}, film=CEASING["film"], solver=solver | {"periods": "8"}
         )
         (tmp_path / f"{method}.nml").write_text(text)
-        ended = run(f"{method}.nml", cwd=tmp_path)
+        ended = run("--verbose", f"{method}.nml", cwd=tmp_path)
         assert ended.returncode == 1
         reported = summary_of(tmp_path / "results" / f"{method}.summary.nml")
         assert reported["status"] == "no_rigid_film" and "film_at_status_time" not in reported

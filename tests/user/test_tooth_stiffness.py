@@ -24,7 +24,7 @@ SETTLED = {"solver": {"periods": "20", "steps_per_period": "256"}, "spectrum": {
 def test_the_deflection_is_that_of_the_largest_load(groups, length, matters, run, scene_text, tmp_path: Path):
     output = {"columns": COLUMNS}
     (tmp_path / "scene.nml").write_text(scene_text(**groups, **SETTLED, output=output))
-    ended = run("scene.nml", cwd=tmp_path)
+    ended = run("--verbose", "scene.nml", cwd=tmp_path)
     assert ended.returncode == 0, ended.stderr
     summary = summary_of(tmp_path / "results" / "scene.summary.nml")
     result = rattle.read(tmp_path / "results" / "scene.rattle")
