@@ -65,8 +65,8 @@ def test_each_number_stands_in_log_or_summary(shown) -> None:
     for lines in scenes:
         name = re.match(r"rattle \S+ (?:scene|gearbox) ([^:]+)", lines[0])[1]
         log = (folder / f"{name}.log").read_text()
-        told = rattle.read_summary(folder / f"{name}.summary.nml")
-        known = {number for number in told.values() if isinstance(number, int | float)}
+        summary = rattle.read_summary(folder / f"{name}.summary.nml")
+        known = {number for number in summary.values() if isinstance(number, int | float)}
         for line in lines:
             if line.startswith(("  files", "  warning", "  input")):
                 continue
@@ -84,9 +84,14 @@ def test_verbose_shows_the_log_which_has_more(shown, run, repository: Path, tmp_
     first = re.match(r"rattle \S+ scene ([^:]+)", scenes[0][0])[1]
     log = (tmp_path / "out" / f"{first}.log").read_text()
     assert ended.stdout.startswith(log)
-    told = rattle.read_summary(tmp_path / "out" / f"{first}.summary.nml")
+    summary = rattle.read_summary(tmp_path / "out" / f"{first}.summary.nml")
     # What the short report leaves out.
-    for words in (told["verdict_text"], told["verification_text"], told["motions_text"], "steps in "):
+    for words in (
+        summary["verdict_text"],
+        summary["verification_text"],
+        summary["motions_text"],
+        "steps in ",
+    ):
         assert words in log
     assert "steps in " not in "\n".join(scenes[0])
 
@@ -146,20 +151,20 @@ def test_a_failed_scene_says_how_it_ended(run, scene_text, tmp_path: Path) -> No
     (tmp_path / "scene.nml").write_text(scene_text(load={"steady_force": "3e4"}, film=film))
     ended = run("scene.nml", cwd=tmp_path)
     assert ended.returncode == 1
-    told = rattle.read_summary(tmp_path / "results" / "scene.summary.nml")
+    summary = rattle.read_summary(tmp_path / "results" / "scene.summary.nml")
     lines = ended.stdout.splitlines()
-    assert lines[1] == f"  ended         {told['status']} at t = 0 s"
-    assert lines[2].strip() == told["status_text"]
+    assert lines[1] == f"  ended         {summary['status']} at t = 0 s"
+    assert lines[2].strip() == summary["status_text"]
 
 
 def test_thresholds_explain_themselves_in_the_log(rattle: Path, scene_text, tmp_path: Path) -> None:
     (tmp_path / "edge.nml").write_text(
         threshold_text(scene_text, threshold={"tolerance": "0.1", "count": "5"})
     )
-    told = {}
+    printed = {}
     for options in ((), ("--verbose",)):
         command = [rattle, "edge.nml", "--overwrite", *options]
         ended = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
-        told[options] = ended.stdout
+        printed[options] = ended.stdout
         assert "places; two changes between neighbours" in (tmp_path / "results" / "edge.log").read_text()
-    assert "places; two changes" in told["--verbose",] and "places; two changes" not in told[()]
+    assert "places; two changes" in printed["--verbose",] and "places; two changes" not in printed[()]
