@@ -9,9 +9,10 @@ module classify_group
    use errors, only: error_t
    use kinds, only: dp
    use irregular_statistics, only: is_enough, statistics_of_path
-   use lyapunov, only: draws_near, follow_neighbours, parting_t, path_t
+   use lyapunov, only: draws_near, follow_neighbours, followed_motions_t, parting_t, path_t
    use many_motions, only: solve_motions
    use memory_need, only: expect_window_memory
+   use neighbouring_motions, only: beside_neighbours, neighbouring_motions_t
    use periodic_orbit, only: attracting_period, longest_period, longest_settled, periodic_orbit_t
    use prepared_scene, only: prepared_scene_t
    use problem, only: state_size
@@ -37,7 +38,7 @@ module classify_group
    !> Samples of windows that are solved side by side: no more than these, but for a window that has more alone.
    integer, parameter :: samples_together = 2**21
 
-   public :: classify_windows, complete_windows, follow_irregular, integral_record, may_be_finer
+   public :: classify_windows, complete_windows, follow_beside_neighbours, follow_irregular, integral_record, may_be_finer
 
 contains
 
@@ -213,8 +214,7 @@ contains
       type(scene_group_t), intent(inout) :: group
       !> Which of them; absent: all
       logical, intent(in), optional :: followed(:)
-      type(parting_t), allocatable :: partings(:)
-      type(path_t), allocatable :: passed(:)
+      type(neighbouring_motions_t) :: followed_motions
       logical :: is_left(size(scenes))
       integer, allocatable :: left(:)
       integer :: i
@@ -228,26 +228,46 @@ contains
          call note_nearby_orbit(scenes(left(i)), longest_period, left(i), group)
       end do
       left = pack(left, group%verdicts(left)%class == class_irregular_so_far)
-      allocate (partings(size(left)), passed(size(left)))
+      if (size(left) > 0) then
+         followed_motions = beside_neighbours(scenes(left)%resolved%problem, group%endings(left)%motion_state_t)
+         call follow_beside_neighbours(scenes, left, followed_motions, group)
+      end if
+      do i = 1, size(left)
+         if (must_stop()) return
+         ! What settles may repeat after more periods than are looked for before.
+         if (draws_near(group%verdicts(left(i))%parting)) call note_nearby_orbit(scenes(left(i)), longest_settled, left(i), group)
+      end do
+      call complete_windows(scenes, group)
+   end subroutine follow_irregular
+
+   !> Follow motions beside their neighbours. Of those that part for good, what they amount to is that of all these periods. After a
+   !> signal to stop the answers are of no use.
+   subroutine follow_beside_neighbours(scenes, left, followed, group)
+      type(prepared_scene_t), intent(in) :: scenes(:)
+      !> Which of them are followed, by an engine of their own
+      integer, intent(in) :: left(:)
+      class(followed_motions_t), intent(inout) :: followed
+      !> The classified scenes
+      type(scene_group_t), intent(inout) :: group
+      type(parting_t) :: partings(size(left))
+      type(path_t) :: passed(size(left))
+      integer :: i
+
       do i = 1, size(left)
          passed(i)%record = integral_record(scenes(left(i))%spectrum)
          passed(i)%record%wants = group%records(left(i))%wants
          passed(i)%record%loads%impact_limit = scenes(left(i))%request%impact_limit
       end do
       call unlock_texts()
-      if (size(left) > 0) call follow_neighbours(scenes(left)%resolved%problem, group%endings(left)%motion_state_t, is_enough, &
-                                                 partings, passed)
+      call follow_neighbours(followed, is_enough, partings, passed)
       call lock_texts()
       do i = 1, size(left)
          call note_parting(group%verdicts(left(i)), partings(i))
-         ! What settles may repeat after more periods than are looked for before.
-         if (draws_near(partings(i))) call note_nearby_orbit(scenes(left(i)), longest_settled, left(i), group)
          if (.not. partings(i)%for_good) cycle
          call take_path(scenes(left(i)), passed(i), .true., left(i), group)
          group%statistics(left(i)) = statistics_of_path(passed(i), scenes(left(i))%resolved%problem%frequency)
       end do
-      call complete_windows(scenes, group)
-   end subroutine follow_irregular
+   end subroutine follow_beside_neighbours
 
    !> Note the periodic motion at the end of a scene, if there is one.
    subroutine note_nearby_orbit(scene, longest, place, group)

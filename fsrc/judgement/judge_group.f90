@@ -19,7 +19,7 @@ module judge_group
    use problem, only: of_velocity
    use quantities, only: needs_film_force, needs_multipliers, needs_orbit, needs_regime, needs_spectrum, needs_starts, &
       needs_verification, needs_verified_impacts
-   use rattle_class, only: class_irregular_so_far, note_orbit
+   use rattle_class, only: class_irregular, class_irregular_so_far, note_orbit
    use regime_check, only: check_regime
    use scene_group, only: goes_beyond, has_window, judged_record, scene_group_t
    use scene_orbit, only: nearby_orbit
@@ -273,7 +273,7 @@ contains
       type(verification_t) :: verifications(size(scenes))
       type(verified_windows_t) :: windows
 
-      if (scenes(1)%resolved%problem%contact%film%in_nodes) then
+      if (scenes(1)%resolved%problem%contact%film%in_nodes .and. space%group%verdicts(1)%class /= class_irregular) then
          call verify_in_nodes(scenes(1), space%nodal, space%group, space%tight, verifications(1), error)
       else
          windows%severities = judged%severity

@@ -2,7 +2,7 @@
 !> verification by twice as many nodes and a tighter tolerance.
 module nodal_judgement
    use carried_loads, only: films_of
-   use classify_group, only: classify_windows, integral_record
+   use classify_group, only: classify_windows, follow_beside_neighbours, integral_record
    use clock, only: wall_seconds
    use constants, only: pi
    use controlled_engine, only: solve_window
@@ -10,21 +10,21 @@ module nodal_judgement
    use engine, only: checkpoint_t, ending_t, motion_watcher_t, start_of, unwatched_t
    use errors, only: error_t
    use kinds, only: dp
-   use lyapunov, only: parting_t
    use nodal_engine, only: solve_in_nodes
-   use nodal_orbit, only: find_nodal_orbit, follow_nodal_neighbours
+   use nodal_neighbours, only: beside_nodal_neighbour, nodal_neighbours_t
+   use nodal_orbit, only: find_nodal_orbit
    use nodal_profiles, only: nodal_profiles_t
    use nodal_step, only: is_late, nodal_choice_t
    use node_extremes, only: seen_films, seen_loads, seen_net_load, seen_pressure
    use periodic_orbit, only: attracting_period
    use prepared_scene, only: prepared_scene_t
    use problem, only: largest_applied_force, problem_t
-   use rattle_class, only: class_irregular, class_irregular_so_far, classify_steps, note_known, note_orbit, note_parting
+   use rattle_class, only: class_irregular_so_far, classify_steps, note_known, note_orbit
    use scene_group, only: scene_group_t, take_window
    use scene_orbit, only: orbit_nearness
    use scene_status, only: is_success, status_time_limit
    use text_output, only: lock_texts, unlock_texts
-   use verification, only: compare_windows, doubt_of_impacts, no_verification, note_impact_errors, note_severity_errors, &
+   use verification, only: compare_windows, no_verification, note_impact_errors, note_severity_errors, &
       verification_t
    use vibration_severity, only: severity_of_record
    use window_extremes, only: extremes_of_record
@@ -155,7 +155,7 @@ contains
       type(scene_group_t), intent(inout) :: group
       !> Whether a periodic motion was found, and why not, as of module nodal_orbit
       integer, intent(out) :: outcome
-      type(parting_t) :: parting
+      type(nodal_neighbours_t) :: followed
 
       associate (problem => scene%resolved%problem, orbit => group%orbits(1), verdict => group%verdicts(1), &
                  ending => group%endings(1))
@@ -163,16 +163,15 @@ contains
          call find_nodal_orbit(problem, choice, ending%nodal, orbit_nearness, orbit, outcome)
          if (verdict%class == class_irregular_so_far .and. orbit%period > 0) group%repeat_after(1) = orbit%period
          call note_orbit(verdict, attracting_period(orbit))
-         if (verdict%class == class_irregular_so_far) then
-            call follow_nodal_neighbours(problem, choice, ending%nodal, parting)
-            call note_parting(verdict, parting)
-         end if
          call lock_texts()
+         if (verdict%class /= class_irregular_so_far) return
+         followed = beside_nodal_neighbour(problem, choice, ending%nodal)
+         call follow_beside_neighbours([scene], [1], followed, group)
       end associate
    end subroutine follow_in_nodes
 
-   !> Verification of a scene by twice as many nodes and a tighter tolerance. Its window need not close to the last digits, as its steps
-   !> are of third order.
+   !> Verification of a scene that is not irregular by twice as many nodes and a tighter tolerance. Its window need not close to the
+   !> last digits, as its steps are of third order.
    subroutine verify_in_nodes(scene, choice, group, tight, verification, error)
       type(prepared_scene_t), intent(in) :: scene
       !> How it was followed
@@ -184,7 +183,6 @@ contains
       type(verification_t), intent(out) :: verification
       !> Set if there is no memory for the samples that a class needs
       type(error_t), allocatable, intent(out) :: error
-      type(doubt_t) :: doubt
       real(dp) :: accuracy, pressures(2)
 
       call solve_finer(scene, choice, tight)
@@ -200,13 +198,11 @@ contains
             call classify_steps(finer, problem%frequency, scene%spectrum, scene%resolved%noise_floor, finer_verdict)
          call note_orbit(finer_verdict, group%repeat_after(1))
          call note_known(finer_verdict, verdict)
-         doubt = doubt_t()
-         if (verdict%class == class_irregular) doubt = doubt_of_impacts(verdict, scene%request%sampled_periods)
          accuracy = finer_share*scene%request%accuracy
          ! Of the films their extremes count: where one falls by decades in an impact, a millionth of a period is a third of it.
          call compare_windows(spread(minval(films_of(problem, group%states(:, :, 1)), dim=1), 1, 1), &
                               spread(minval(films_of(problem, tight%states(:, :, 1)), dim=1), 1, 1), extremes_of_record(record), &
-                              extremes_of_record(finer), verdict, finer_verdict, doubt, scene%spectrum, &
+                              extremes_of_record(finer), verdict, finer_verdict, doubt_t(), scene%spectrum, &
                               scene%spectrum%verification_tolerance, accuracy, 0.0_dp, verification)
          verification%impacts = agreement_of(problem, extremes_of_record(record), impacts_of_record(record, problem%frequency), &
                                              extremes_of_record(finer), impacts_of_record(finer, problem%frequency), &

@@ -42,7 +42,7 @@ module nodal_engine
       real(dp), allocatable :: watched(:, :)
    end type nodal_run_t
 
-   public :: solve_in_nodes
+   public :: solve_in_nodes, add_step
 
 contains
 
@@ -268,12 +268,10 @@ contains
       type(nodal_run_t), intent(inout) :: run
       type(window_record_t), intent(in) :: record
       type(ending_t), intent(inout) :: ending
-      real(dp), allocatable :: piece(:, :)
-      real(dp) :: phase, length, start, loads
-      integer :: sample, i, pieces, part
+      real(dp) :: phase, loads
+      integer :: sample
       integer(int64) :: steps
 
-      allocate (piece(nodes_per_piece, size(run%states, 2)))
       sample = 0
       steps = 0
       associate (gear => run%gear, motion => run%motion, problem => run%gear%problem, states => run%states, force => run%force)
@@ -297,19 +295,31 @@ contains
             end do
             if (run%period <= run%from) cycle
             call note_profiles(gear%flanks, motion, run%period - run%from - 1, run%period == run%last, run%kept)
-            pieces = max(1, ceiling((motion%time(1) - motion%time(2))/record%longest_piece))
-            length = (motion%time(1) - motion%time(2))/real(pieces, dp)
-            do part = 1, pieces
-               start = motion%time(2) + real(part - 1, dp)*length
-               do i = 1, nodes_per_piece
-                  piece(i, :) = state_at(motion, start + node_place(i)*length)
-               end do
-               call add_piece(start, length, piece, run%nodes)
-            end do
+            call add_step(motion, record%longest_piece, run%nodes)
          end do
       end associate
       ending%count%steps = ending%count%steps + steps
    end subroutine solve_period
+
+   !> Add the last step to the nodes of its period.
+   pure subroutine add_step(motion, longest_piece, nodes)
+      type(motion_t), intent(in) :: motion
+      !> [periods]
+      real(dp), intent(in) :: longest_piece
+      type(step_nodes_t), intent(inout) :: nodes
+      real(dp) :: piece(nodes_per_piece, size(motion%states, 2)), length, start
+      integer :: pieces, part, i
+
+      pieces = max(1, ceiling((motion%time(1) - motion%time(2))/longest_piece))
+      length = (motion%time(1) - motion%time(2))/real(pieces, dp)
+      do part = 1, pieces
+         start = motion%time(2) + real(part - 1, dp)*length
+         do i = 1, nodes_per_piece
+            piece(i, :) = state_at(motion, start + node_place(i)*length)
+         end do
+         call add_piece(start, length, piece, nodes)
+      end do
+   end subroutine add_step
 
    !> State within the last step: the polynomial through its end and the times before. What is positive stays positive.
    pure function state_at(motion, time) result(state)

@@ -1,7 +1,6 @@
-!> Whether neighbouring motions part from each other for good: the largest Lyapunov exponent, from motions and a neighbour of each
-!> that are solved side by side, or from a displacement that implicit steps carry along. After every period of the force the
-!> neighbour is brought back to a small distance along the direction in which it left; the exponent is the mean logarithm by which
-!> the distance grew (Benettin and others 1980).
+!> Whether neighbouring motions part from each other for good: the largest Lyapunov exponent, from motions and a neighbour of each.
+!> After every period of the force the neighbour is brought back to a small distance along the direction in which it left; the
+!> exponent is the mean logarithm by which the distance grew (Benettin and others 1980).
 !>
 !> A motion that repeats, or one that settles to it, has an exponent of 0 or less; that of a motion which never repeats though its
 !> force does is 0 where two frequencies without a common measure make it, and positive where it is irregular for good.
@@ -9,12 +8,8 @@
 !> The steps of the motion are recorded meanwhile, as those of a window are: what an irregular motion amounts to is known from
 !> these periods, with the errors that its sums after each of them give.
 module lyapunov
-   use carried_loads, only: counts_as, sizes_of_state
-   use engine, only: ending_t, motion_state_t, request_t
    use kinds, only: dp
-   use many_motions, only: has_tangents, solve_motions
-   use problem, only: of_film, of_velocity, problem_t, state_size
-   use scene_status, only: status_complete
+   use problem, only: of_velocity
    use signals, only: must_stop
    use window_record, only: sums_of_record, window_record_t
    implicit none(type, external)
@@ -28,10 +23,6 @@ module lyapunov
    integer, parameter :: block_periods = 5
    !> Periods in which the neighbour turns into the direction that grows most: they do not count.
    integer, parameter, public :: turning_periods = 5
-   !> Accuracy of the motions, and distance of the neighbours, relative to the film: a thousand times farther apart than the
-   !> errors of a period, whose per mille of a growth is nothing beside its scatter from period to period, and near enough for
-   !> the distance to grow as an infinitely small one does.
-   real(dp), parameter :: map_accuracy = 1.0e-8_dp, distance = 1.0e-5_dp
    !> Standard errors by which an exponent has to differ from 0.
    real(dp), parameter :: least_errors = 2.0_dp
 
@@ -62,8 +53,39 @@ module lyapunov
       real(dp), allocatable :: sums(:, :)
    end type path_t
 
-   !> Whether a path shows enough of its motion, or should be followed on.
+   !> Motions that are followed, each with a neighbour: what engine they go by is a matter of its own.
+   type, abstract, public :: followed_motions_t
+   contains
+      procedure(carry_motions), deferred :: carry
+      procedure(time_is_over), deferred :: is_late
+   end type followed_motions_t
+
    abstract interface
+      !> Carry some motions and their neighbours through a period, and bring the neighbours back.
+      subroutine carry_motions(self, left, period, growths, states, passed, paths)
+         import :: dp, followed_motions_t, path_t
+         class(followed_motions_t), intent(inout) :: self
+         !> Which of them
+         integer, intent(in) :: left(:)
+         !> Its number; from the first one on the steps are recorded
+         integer, intent(in) :: period
+         !> Of each motion that passed: logarithm by which the distance of its neighbour grew [-]
+         real(dp), intent(inout) :: growths(:)
+         !> Films and velocities at the end of the period: number, motion
+         real(dp), intent(inout) :: states(:, :)
+         !> Whether a motion and what is beside it could be followed
+         logical, intent(inout) :: passed(:)
+         !> With the records
+         type(path_t), intent(inout) :: paths(:)
+      end subroutine carry_motions
+
+      !> Whether no more period may be begun.
+      logical function time_is_over(self)
+         import :: followed_motions_t
+         class(followed_motions_t), intent(in) :: self
+      end function time_is_over
+
+      !> Whether a path shows enough of its motion, or should be followed on.
       pure logical function path_is_enough(path)
          import :: path_t
          type(path_t), intent(in) :: path
@@ -76,48 +98,42 @@ contains
 
    !> Follow motions and their neighbours: until these draw near, or part for good and enough is known of the motion. After a signal to
    !> stop the answer is of no use.
-   subroutine follow_neighbours(problems, states, is_enough, partings, paths)
-      !> What moves
-      type(problem_t), intent(in) :: problems(:)
-      !> Where each motion stands, at the start of a period
-      type(motion_state_t), intent(in) :: states(:)
+   subroutine follow_neighbours(followed, is_enough, partings, paths)
+      !> The motions with their neighbours
+      class(followed_motions_t), intent(inout) :: followed
       procedure(path_is_enough) :: is_enough
       type(parting_t), intent(out) :: partings(:)
       !> Where the motions went that part for good
       type(path_t), intent(inout) :: paths(:)
-      type(motion_state_t) :: here(size(problems))
-      real(dp) :: growths(-turning_periods + 1:most_followed_periods, size(problems))
-      real(dp) :: displacements(maxval(state_size(problems)), 1, size(problems))
+      real(dp) :: growths(-turning_periods + 1:most_followed_periods, size(paths)), states(of_velocity, size(paths))
       real(dp), allocatable :: sums(:, :)
-      logical :: passed(size(problems))
+      logical :: passed(size(paths))
       integer, allocatable :: left(:)
       integer :: period, i
 
-      displacements = 0.0_dp
-      do i = 1, size(problems)
-         associate (numbers => states(i)%numbers)
-            here(i) = motion_state_t(numbers=numbers)
-            displacements(:size(numbers), 1, i) = distance*sizes_of(problems(i), numbers)
-         end associate
-         allocate (paths(i)%states(of_velocity, most_followed_periods))
-      end do
-      left = [(i, i=1, size(problems))]
+      left = [(i, i=1, size(paths))]
       do period = -turning_periods + 1, most_followed_periods
          if (size(left) == 0 .or. must_stop()) exit
+         if (followed%is_late()) then
+            do i = 1, size(left)
+               if (partings(left(i))%for_good) partings(left(i)) = parting_of(growths(1:period - 1, left(i)))
+               partings(left(i))%out_of_time = .not. partings(left(i))%for_good
+            end do
+            exit
+         end if
          passed = .false.
-         call carry_period(problems, left, period, here, displacements, passed, paths)
+         call followed%carry(left, period, growths(period, :), states, passed, paths)
          do i = 1, size(left)
             if (.not. passed(left(i))) partings(left(i))%for_good = .false.
          end do
          left = pack(left, passed(left))
+         if (period < 1) cycle
          do i = 1, size(left)
             associate (place => left(i), path => paths(left(i)))
-               call part(problems(place), here(place)%numbers, displacements(:size(here(place)%numbers), 1, place), &
-                         growths(period, place))
-               if (period < 1) cycle
-               if (period == 1) allocate (path%sums(size(sums_of_record(path%record)), 0:most_followed_periods), source=0.0_dp)
+               if (period == 1) allocate (path%sums(size(sums_of_record(path%record)), 0:most_followed_periods), &
+                                          path%states(of_velocity, most_followed_periods), source=0.0_dp)
                path%sums(:, period) = sums_of_record(path%record)
-               path%states(:, period) = here(place)%numbers([of_film, of_velocity])
+               path%states(:, period) = states(:, place)
                if (mod(period, stretch_periods) /= 0) cycle
                partings(place) = parting_of(growths(1:period, place))
                passed(place) = .not. draws_near(partings(place))
@@ -126,7 +142,7 @@ contains
          end do
          left = pack(left, passed(left))
       end do
-      do i = 1, size(problems)
+      do i = 1, size(paths)
          associate (path => paths(i), periods => partings(i)%periods)
             if (partings(i)%for_good) then
                path%states = path%states(:, :periods)
@@ -139,94 +155,18 @@ contains
       end do
    end subroutine follow_neighbours
 
-   !> Carry motions and their displacements through a period: those that have tangents with these, the others beside a neighbour.
-   subroutine carry_period(problems, left, period, here, displacements, passed, paths)
-      !> What moves, and which of it
-      type(problem_t), intent(in) :: problems(:)
-      integer, intent(in) :: left(:)
-      !> Its number; from the first one on the steps are recorded
-      integer, intent(in) :: period
-      !> Where the motions stand, at the start of a period and then at its end
-      type(motion_state_t), intent(inout) :: here(:)
-      !> Number of the state, 1, problem
-      real(dp), intent(inout) :: displacements(:, :, :)
-      !> Whether a motion and what is beside it could be followed
-      logical, intent(inout) :: passed(:)
-      type(path_t), intent(inout) :: paths(:)
-      type(request_t) :: one_period
-      type(motion_state_t) :: neighbours(size(problems))
-      type(ending_t) :: endings(2*size(problems))
-      type(window_record_t) :: records(2*size(problems))
-      real(dp) :: samples(max(1, period), size(displacements, 1), 2*size(problems))
-      real(dp), allocatable :: moved(:, :, :)
-      integer, allocatable :: along(:), beside(:)
-      integer :: i, n
-
-      one_period = request_t(accuracy=map_accuracy, periods=1)
-      ! One more period of those that a record has, and so one sample more.
-      if (period > 0) one_period = request_t(accuracy=map_accuracy, periods=period, sampled_periods=period, samples_per_period=1)
-      here%periods = one_period%periods - 1
-      along = pack(left, has_tangents(problems(left), here(left), map_accuracy))
-      beside = pack(left,.not. has_tangents(problems(left), here(left), map_accuracy))
-      n = size(along)
-      moved = displacements(:, :, along)
-      do i = 1, n
-         call hand_over(paths(along(i))%record, records(i))
-      end do
-      if (n > 0) call solve_motions(problems(along), here(along), one_period, samples(:, :, :n), endings(:n), &
-                                    records=records(:n), displacements=moved)
-      do i = 1, n
-         associate (place => along(i))
-            passed(place) = endings(i)%status == status_complete
-            here(place)%numbers = endings(i)%numbers
-            displacements(:, :, place) = moved(:, :, i)
-            call hand_over(records(i), paths(place)%record)
-         end associate
-      end do
-      n = size(beside)
-      do i = 1, n
-         associate (place => beside(i))
-            neighbours(place) = here(place)
-            neighbours(place)%numbers = here(place)%numbers + displacements(:size(here(place)%numbers), 1, place)
-            call hand_over(paths(place)%record, records(2*i - 1))
-            records(2*i) = window_record_t(wants=.false.)
-         end associate
-      end do
-      if (n > 0) call solve_motions([(problems(beside(i)), problems(beside(i)), i=1, n)], &
-                                    [(here(beside(i)), neighbours(beside(i)), i=1, n)], one_period, samples(:, :, :2*n), &
-                                    endings(:2*n), records=records(:2*n))
-      do i = 1, n
-         associate (place => beside(i), motion => endings(2*i - 1), neighbour => endings(2*i))
-            passed(place) = motion%status == status_complete .and. neighbour%status == status_complete
-            here(place)%numbers = motion%numbers
-            displacements(:size(motion%numbers), 1, place) = neighbour%numbers - motion%numbers
-            call hand_over(records(2*i - 1), paths(place)%record)
-         end associate
-      end do
-   end subroutine carry_period
-
-   !> Hand a record over; its turns, which are many, are moved.
-   pure subroutine hand_over(from, to)
-      !> Without its turns on return
-      type(window_record_t), intent(inout) :: from
-      type(window_record_t), intent(inout) :: to
-      real(dp), allocatable :: turns(:)
-
-      call move_alloc(from%turns, turns)
-      to = from
-      call move_alloc(turns, to%turns)
-   end subroutine hand_over
-
    !> What the growth of the distance over the periods says. An exponent counts as positive if it is so by two standard errors, in
    !> each half of the periods, and in the last stretch: a motion that settles meanwhile parts from its neighbour only before.
    pure type(parting_t) function parting_of(growths) result(parting)
-      !> Logarithm of the growth in each period, whole stretches [-]
+      !> Logarithm of the growth in each period, of two blocks at least [-]
       real(dp), intent(in) :: growths(:)
       real(dp) :: blocks(size(growths)/block_periods)
       integer :: n
 
       n = size(growths)
-      blocks = sum(reshape(growths, [block_periods, size(blocks)]), dim=1)/real(block_periods, dp)
+      associate (whole => growths(n - block_periods*size(blocks) + 1:))
+         blocks = sum(reshape(whole, [block_periods, size(blocks)]), dim=1)/real(block_periods, dp)
+      end associate
       parting%periods = n
       parting%exponent = sum(blocks)/real(size(blocks), dp)
       parting%standard_error = sqrt(sum((blocks - parting%exponent)**2)/real(size(blocks)*(size(blocks) - 1), dp))
@@ -241,37 +181,5 @@ contains
 
       draws_near = parting%exponent < -least_errors*parting%standard_error
    end function draws_near
-
-   !> How far a displacement has grown in a period; for the next one it is brought back.
-   subroutine part(problem, motion, displacement, growth)
-      type(problem_t), intent(in) :: problem
-      !> Numbers of the state of the motion
-      real(dp), intent(in) :: motion(:)
-      !> Of these numbers, after the period and for the next one
-      real(dp), intent(inout) :: displacement(:)
-      !> Logarithm by which their distance grew [-]
-      real(dp), intent(out) :: growth
-      real(dp) :: direction(size(motion)), farthest
-
-      direction = displacement/sizes_of(problem, motion)
-      farthest = maxval(abs(direction))
-      ! Neighbours that have met give no direction: what is left of their distance is less than the errors.
-      if (.not. farthest > map_accuracy*distance) then
-         farthest = map_accuracy*distance
-         direction = farthest
-      end if
-      growth = log(farthest/distance)
-      displacement = distance*(direction/farthest)*sizes_of(problem, motion)
-   end subroutine part
-
-   !> What the numbers of a state count as, each in its unit.
-   function sizes_of(problem, numbers) result(sizes)
-      type(problem_t), intent(in) :: problem
-      !> Of the state
-      real(dp), intent(in) :: numbers(:)
-      real(dp) :: sizes(size(numbers))
-
-      sizes = sizes_of_state(problem, numbers, counts_as(problem, numbers))
-   end function sizes_of
 
 end module lyapunov

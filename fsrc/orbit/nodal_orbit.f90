@@ -1,5 +1,4 @@
-!> The periodic motion next to a motion in nodes of pressure, its Floquet multipliers, and whether neighbours of a motion that does
-!> not repeat leave it for good.
+!> The periodic motion next to a motion in nodes of pressure, and its Floquet multipliers.
 !>
 !> Two neighbours (module nodal_tangent) are followed through a period first, so that their pressures are those that belong to their
 !> gears; then their positions and velocities at both ends of the next one, X(end) = J X(start), give the two multipliers that count
@@ -9,16 +8,18 @@ module nodal_orbit
    use engine, only: ending_t
    use kinds, only: dp
    use linear_equations, only: eigenvalues, solve_linear
-   use lyapunov, only: draws_near, followed_periods, parting_of, parting_t, stretch_periods, turning_periods
+   use nodal_engine, only: add_step
    use nodal_film, only: smallest_film
    use nodal_state, only: unpack_motion
    use nodal_step, only: begin_period, distance_of_states, gear_t, is_late, most_steps, motion_t, nodal_choice_t, set_up, &
       state_of, take_step
    use nodal_tangent, only: combine, displace, neighbours, nodal_tangent_t, start_tangent
    use periodic_orbit, only: longest_period, periodic_orbit_t
-   use problem, only: problem_t
+   use problem, only: of_velocity, problem_t
    use scene_status, only: status_complete, status_film_cycles
    use signals, only: must_stop
+   use step_nodes, only: step_nodes_t
+   use window_record, only: record_period, window_record_t
    implicit none(type, external)
    private
 
@@ -35,7 +36,7 @@ module nodal_orbit
    integer, parameter, public :: orbit_not_requested = 0, orbit_found = 1, orbit_none_near = 2, orbit_not_followed = 3, &
                                  orbit_not_settled = 4, orbit_out_of_time = 5
 
-   public :: find_nodal_orbit, follow_nodal_neighbours, orbit_sentence
+   public :: find_nodal_orbit, follow_period, orbit_sentence, state_of_neighbours
 
 contains
 
@@ -236,58 +237,24 @@ contains
       motion%states(1, :) = state_of(gear, motion, 1)
    end subroutine move_to
 
-   !> A period, with neighbours or without.
-   subroutine follow_period(gear, motion, ending, tangent)
+   !> A period, with neighbours or without; it is added to a record, if there is one.
+   subroutine follow_period(gear, motion, ending, tangent, record)
       type(gear_t), intent(in) :: gear
       type(motion_t), intent(inout) :: motion
       type(ending_t), intent(out) :: ending
       type(nodal_tangent_t), intent(inout), optional :: tangent
+      type(window_record_t), intent(inout), optional :: record
+      type(step_nodes_t) :: nodes
 
       do while (motion%time(1) < 1.0_dp)
          call take_step(gear, motion, ending, tangent)
          ending%count%steps = ending%count%steps + 1
          if (ending%count%steps > most_steps) ending%status = status_film_cycles
          if (ending%status /= status_complete) return
+         if (present(record)) call add_step(motion, record%longest_piece, nodes)
       end do
+      if (present(record)) call record_period(gear%problem, motion%states(1, of_velocity), nodes, record)
       call begin_period(motion)
    end subroutine follow_period
-
-   !> Follow a motion and a neighbour of it, as module lyapunov does. After a signal to stop the answer is of no use.
-   subroutine follow_nodal_neighbours(problem, choice, numbers, parting)
-      !> What moves
-      type(problem_t), intent(in) :: problem
-      !> How it was followed
-      type(nodal_choice_t), intent(in) :: choice
-      !> Where it ended, as of pack_motion
-      real(dp), intent(in) :: numbers(:)
-      type(parting_t), intent(out) :: parting
-      type(gear_t) :: gear
-      type(motion_t) :: motion
-      type(nodal_tangent_t) :: tangent
-      type(ending_t) :: ending
-      real(dp) :: growths(-turning_periods + 1:followed_periods), state(2, neighbours), farthest, share(neighbours, neighbours)
-      integer :: period
-
-      call set_up(problem, choice, gear)
-      call unpack_motion(problem, choice%nodes, numbers, motion)
-      call start_tangent(gear%contact, motion%flanks(:gear%flanks), motion%time*gear%period, tangent)
-      do period = -turning_periods + 1, followed_periods
-         parting%out_of_time = is_late(choice)
-         if (parting%out_of_time .or. must_stop()) return
-         call follow_period(gear, motion, ending, tangent)
-         if (ending%status /= status_complete .or. .not. tangent%exists) return
-         state = state_of_neighbours(gear, tangent)
-         farthest = maxval(abs(state(:, 1)))
-         if (.not. farthest > 0.0_dp) return
-         growths(period) = log(farthest)
-         share = 0.0_dp
-         share(1, 1) = 1.0_dp/farthest
-         share(2, 2) = share(1, 1)
-         call combine(share, tangent)
-         if (period < stretch_periods .or. mod(period, stretch_periods) /= 0) cycle
-         parting = parting_of(growths(1:period))
-         if (draws_near(parting)) return
-      end do
-   end subroutine follow_nodal_neighbours
 
 end module nodal_orbit

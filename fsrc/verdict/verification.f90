@@ -12,7 +12,7 @@ module verification
    use node_extremes, only: seen_acceleration, seen_films
    use problem, only: most_contacts, of_velocity, problem_t
    use regime_check, only: gap_too_wide, model_limit
-   use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, is_off_harmonics, rattle_verdict_t
+   use rattle_class, only: class_irregular_so_far, class_subharmonic, is_off_harmonics, rattle_verdict_t
    use scene_types, only: spectrum_choice_t
    use window_extremes, only: window_extremes_t
    use window_impacts, only: impact_agreement_t, impulse_mean, window_impacts_t
@@ -175,9 +175,6 @@ contains
             doubt = doubt_t(doubt_parting, parting=verdict%parting)
          else if (is_doubted(unclosed)) then
             doubt = unclosed
-         else if (verdict%class == class_irregular) then
-            ! Irregular motions part from each other; only that they are irregular can stand.
-            doubt = first_doubt([doubt_of_fraction(verdict, choice), doubt_of_fraction(tight_verdict, choice)])
          else if (film_difference > tolerance) then
             doubt = doubt_t(doubt_film, numbers=[film_difference, 0.0_dp])
          else if (abs(verdict%spectrum%irregular_fraction - choice%irregular_limit) <= &

@@ -10,6 +10,7 @@ module test_elastic_tangents
    use linear_equations, only: eigenvalues
    use lyapunov, only: follow_neighbours, parting_t, path_t
    use many_motions, only: has_tangents, solve_motions
+   use neighbouring_motions, only: beside_neighbours, neighbouring_motions_t
    use periodic_orbit, only: find_periodic_orbit, map_states, periodic_orbit_t
    use problem, only: problem_of, problem_t, state_size
    use scene_status, only: status_complete
@@ -134,6 +135,7 @@ contains
       type(periodic_orbit_t) :: orbit
       type(parting_t) :: partings(1)
       type(path_t) :: paths(1)
+      type(neighbouring_motions_t) :: followed
       complex(dp), allocatable :: multipliers(:)
       real(dp) :: none(0, 2, 1)
 
@@ -146,7 +148,8 @@ contains
       ! Motions that are known to 1e-12, 1e-4 beside each other.
       multipliers = multipliers_of_differences(problem, orbit%state)
       call checks%check(maxval(abs(orbit%multipliers - multipliers)) <= 1.0e-7_dp, 'its multipliers')
-      call follow_neighbours([problem], [endings(1)%motion_state_t], is_enough, partings, paths)
+      followed = beside_neighbours([problem], [endings(1)%motion_state_t])
+      call follow_neighbours(followed, is_enough, partings, paths)
       call checks%check_close(partings(1)%exponent, log(abs(orbit%multipliers(1))), 1.0e-3_dp, 'its exponent')
    end subroutine test_repeating
 

@@ -7,6 +7,7 @@ module test_lyapunov
    use kinds, only: dp
    use lyapunov, only: draws_near, follow_neighbours, followed_periods, parting_of, parting_t, path_t
    use many_motions, only: solve_motions
+   use neighbouring_motions, only: beside_neighbours, neighbouring_motions_t
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
    use problem, only: problem_of, problem_t
    use scene_types, only: law_iso_viscous, scene_t
@@ -75,6 +76,7 @@ contains
       type(ending_t) :: endings(1)
       type(parting_t) :: partings(1)
       type(path_t) :: paths(1)
+      type(neighbouring_motions_t) :: followed
       type(periodic_orbit_t) :: orbit
       real(dp) :: none(0, 2, 1)
 
@@ -86,7 +88,8 @@ contains
       orbit = find_periodic_orbit(problem, endings(1)%numbers, 1.0e-3_dp)
       call checks%check(orbit%period == 1, 'the motion repeats')
       if (orbit%period /= 1) return
-      call follow_neighbours([problem], [endings(1)%motion_state_t], is_enough, partings, paths)
+      followed = beside_neighbours([problem], [endings(1)%motion_state_t])
+      call follow_neighbours(followed, is_enough, partings, paths)
       call checks%check(partings(1)%periods > 0 .and. draws_near(partings(1)), 'neighbours of a motion that repeats draw near')
       ! A pair of complex multipliers turns the difference, whose size swings about the mean: a share of one turn in 25 periods.
       call checks%check_close(partings(1)%exponent, log(abs(orbit%multipliers(1))), 0.1_dp*abs(log(abs(orbit%multipliers(1)))), &

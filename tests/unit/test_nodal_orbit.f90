@@ -9,11 +9,13 @@ module test_nodal_orbit
    use errors, only: error_t
    use classify_group, only: integral_record
    use kinds, only: dp
-   use lyapunov, only: parting_t
+   use irregular_statistics, only: is_enough
+   use lyapunov, only: follow_neighbours, parting_t, path_t
    use nodal_engine, only: solve_in_nodes
-   use nodal_orbit, only: find_nodal_orbit, follow_nodal_neighbours, orbit_found, orbit_none_near, orbit_out_of_time, &
+   use nodal_orbit, only: find_nodal_orbit, orbit_found, orbit_none_near, orbit_out_of_time, &
       orbit_sentence
    use nodal_judgement, only: choice_of, solve_finer
+   use nodal_neighbours, only: beside_nodal_neighbour, nodal_neighbours_t
    use nodal_state, only: unpack_motion
    use nodal_step, only: gear_t, motion_t, nodal_choice_t, set_up, take_step
    use nodal_tangent, only: displace, nodal_tangent_t, start_tangent
@@ -197,7 +199,9 @@ contains
       type(nodal_choice_t) :: choice
       type(ending_t) :: ending, again
       type(periodic_orbit_t) :: orbit
-      type(parting_t) :: parting
+      type(nodal_neighbours_t) :: followed
+      type(parting_t) :: parting(1)
+      type(path_t) :: path(1)
       type(scene_group_t) :: group
       type(window_keeper_t) :: keeper
       type(window_record_t) :: record
@@ -216,9 +220,11 @@ contains
       call find_nodal_orbit(problem, choice, ending%nodal, 1.0e-2_dp, orbit, outcome)
       call checks%check(outcome == orbit_out_of_time .and. orbit%period == 0, 'no periodic motion is looked for')
       call checks%check(index(orbit_sentence(outcome), 'solver.time_limit was over') > 0, 'and it is said why')
-      call follow_nodal_neighbours(problem, choice, ending%nodal, parting)
-      call checks%check(parting%out_of_time .and. parting%periods == 0 .and. .not. parting%for_good, 'no neighbour is followed')
-      call checks%check(index(doubt_sentence(doubt_t(doubt_parting, parting=parting)), 'solver.time_limit was over') > 0, &
+      followed = beside_nodal_neighbour(problem, choice, ending%nodal)
+      call follow_neighbours(followed, is_enough, parting, path)
+      call checks%check(parting(1)%out_of_time .and. parting(1)%periods == 0 .and. .not. parting(1)%for_good, &
+                        'no neighbour is followed')
+      call checks%check(index(doubt_sentence(doubt_t(doubt_parting, parting=parting(1))), 'solver.time_limit was over') > 0, &
                         'and it is said of an irregular motion')
       call solve_finer(prepare(scene), choice, group)
       call checks%check(group%endings(1)%status == status_time_limit .and. group%endings(1)%periods == 0, 'nor is it solved again')

@@ -29,7 +29,6 @@ contains
       call checks%start('verification')
       call test_errors(checks)
       call test_film(checks)
-      call test_irregular(checks)
       call test_subharmonic(checks)
       call test_quiet_limit(checks)
       call test_harmonic_count(checks)
@@ -159,26 +158,6 @@ call checks%check(index(verification_sentence(verification), words) > 0, words//
       call compare(films, films, 0.0_dp*values, 0.0_dp*values, verdict, verdict, choice, tolerance, verification)
       call checks%check(verification%verified, 'film: at rest')
    end subroutine test_film
-
-   !> Irregular motions part from each other; their class is verified if both fractions are twice the limit or more.
-   subroutine test_irregular(checks)
-      type(check_list_t), intent(inout) :: checks  !> Collects the results
-
-      type(verification_t) :: verification
-      type(spectrum_choice_t) :: choice
-      type(rattle_verdict_t) :: clear, close_by
-
-      clear = verdict_of(class_irregular, [1.0_dp, 0.5_dp], choice)
-      clear%spectrum%irregular_fraction = 0.021_dp
-      close_by = clear
-      close_by%spectrum%irregular_fraction = 0.019_dp
-      call compare(2.0_dp*films, films, values, values, clear, clear, choice, tolerance, verification)
-      call checks%check(verification%verified, 'irregular: clear of the limit, whatever the film')
-      call compare(films, films, values, values, clear, close_by, choice, tolerance, verification)
-      call checks%check(.not. verification%verified, 'irregular: the tighter one is close to the limit')
-      call compare(films, films, values, values, close_by, clear, choice, tolerance, verification)
-      call checks%check(.not. verification%verified, 'irregular: the scene is close to the limit')
-   end subroutine test_irregular
 
    !> Subharmonic motions are regular: their films agree. Their class is verified unless the limit is within the error of the
    !> irregular fraction, and so does every other class of a regular motion; their harmonics do not matter.
