@@ -255,7 +255,7 @@ def test_the_report_tells_every_threshold(tmp_path):
         "Looked for: change of class, along the force amplitude from 5 N to 100 N, on 4 traces, one for each",
         "From quiet to creep: 3 times, between 21 N and 41 N.",
         "1 of 4 traces have no threshold in this range.",
-        "At 3 of 5 thresholds both ends are verified",
+        "At 3 of 5 thresholds both ends are numerically verified",
         "quiet throughout",
         "Two changes between neighbours that cancel each other are not seen.",
     ):

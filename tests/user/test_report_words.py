@@ -170,7 +170,7 @@ def test_every_sentence_on_thresholds_is_that_of_the_rows(tmp_path: Path) -> Non
         "From creep to idle: at 71 N.",
         "1 of 4 traces have no threshold in this range.",
     ]
-    assert reported[4].startswith("At 3 of 4 thresholds both ends are verified: ")
+    assert reported[4].startswith("At 3 of 4 thresholds both ends are numerically verified: ")
     assert "solved in 33 places" in reported[5] and "the widest that is left is 8 N." in reported[5]
     assert reported[6] == "It took 30 scenes; a grid as fine has 20 times as many."
     page = read_page(report(result.path))

@@ -104,7 +104,7 @@ def _draw_verifications(figure: Figure, axes: Axes, campaign: Campaign) -> None:
     lacking = campaign.done & (verified == 0.0)
     judged = int((campaign.done & np.isfinite(verified)).sum())
     if not lacking.any():
-        _say(axes, f"every class of {judged:,} scenes is verified")
+        _say(axes, f"every class of {judged:,} scenes is numerically verified")
         return
     axes.set_title(f"Verification fails in {look.share(int(lacking.sum()), judged)} of {judged:,} scenes")
     if len(campaign.varied) < 2:

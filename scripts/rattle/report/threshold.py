@@ -132,7 +132,7 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
     if "verified_below" in found.result and crossed.any():
         sure = int(crossed.sum() - found.uncertain.sum())
         yield (
-            f"At {sure} of {int(crossed.sum())} thresholds both ends are verified: solved "
+            f"At {sure} of {int(crossed.sum())} thresholds both ends are numerically verified: solved "
             "again, tighter, they are on the same side. "
             "Where that is not possible close to the change, its ends lie "
             "farther apart, and the distance between them is how well the threshold is known."
