@@ -113,6 +113,7 @@ def assert_alike(one: dict, other: dict, change: str) -> None:
     # With an order of a hundredth it is another force: a load next to the limit of impacts passes it or not.
     if change == f"small_{SMALL_SHARES[-1]:.0e}".replace("-", ""):
         return
+    assert other["verdict"] == one["verdict"], change
     for name in ("impacts_per_second_drive", "impacts_per_revolution_drive"):
         assert other[name] == pytest.approx(one[name], rel=1e-9), change
 
