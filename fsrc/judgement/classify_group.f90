@@ -292,21 +292,21 @@ contains
       type(scene_group_t), intent(inout) :: group
       type(path_t) :: path
       type(window_record_t), allocatable :: records(:)
-      integer, allocatable :: open(:)
+      integer, allocatable :: left(:)
       integer :: periods(size(scenes)), n, i
 
       n = size(scenes)
       periods = group%endings(:n)%samples/scenes(1)%request%samples_per_period
-      open = pack([(i, i=1, n)], has_window(group%endings(:n)) .and. group%records(:n)%periods > 0 .and. &
+      left = pack([(i, i=1, n)], has_window(group%endings(:n)) .and. group%records(:n)%periods > 0 .and. &
                   group%repeat_after(:n) > 1 .and. modulo(periods, max(1, group%repeat_after(:n))) > 0)
-      if (size(open) == 0) return
-      associate (after => group%repeat_after(open))
-         records = integral_windows(scenes(open), group%records(open), ((periods(open) - 1)/after + 1)*after, with_extremes=.true.)
+      if (size(left) == 0) return
+      associate (after => group%repeat_after(left))
+         records = integral_windows(scenes(left), group%records(left), ((periods(left) - 1)/after + 1)*after, with_extremes=.true.)
       end associate
-      do i = 1, size(open)
+      do i = 1, size(left)
          if (records(i)%periods == 0) cycle
          path%record = records(i)
-         call take_path(scenes(open(i)), path, .false., open(i), group)
+         call take_path(scenes(left(i)), path, .false., left(i), group)
       end do
    end subroutine complete_windows
 

@@ -136,8 +136,8 @@ module quantities
          'Lambda: largest inertia force that pulls the tooth of a loose gear off its flank over the drag that holds it there; '// &
          'above 1 it leaves without oil.', digits=4), &
       quantity_t(quantity_window_periods, 'window_periods', '-', a_count, part_window, needs_nothing, 'summary', &
-         'Periods of the force at the end of the run that are judged. Where they do not divide into whole repeats of the '// &
-         'motion, it is followed on from their beginning until they do.'), &
+         'Periods of the force at the end of the run that are judged. A motion of whose repeats they hold no whole number is '// &
+         'followed on until they do.'), &
       quantity_t(quantity_samples_per_period, 'samples_per_period', '-', a_count, part_window, needs_nothing, 'summary', &
          'Samples of a period that the harmonics are found from.'), &
       quantity_t(quantity_series_coarse, 'series_coarse', '-', a_flag, part_window, needs_nothing, 'summary', &

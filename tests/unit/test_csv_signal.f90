@@ -128,7 +128,7 @@ contains
       call refuse(checks, lines('force', '0,017', '1,5', '2,5', '3,5'), '', decimal_comma)
       call refuse(checks, lines('time,force', 'old,new', '0,1', '1,3', '2,1', '3,0'), 'force', &
                   ':2: column 2: this is not a number; below the names')
-      call refuse(checks, lines('time,force', 's,N', 's,N', '0,1', '1,3', '2,1', '3,0'), 'force', ':3: column 2: this is not a number')
+   call refuse(checks, lines('time,force', 's,N', 's,N', '0,1', '1,3', '2,1', '3,0'), 'force', ':3: column 2: this is not a number')
       call refuse(checks, lines('time;force', '0;1,5', '1;3', '2;2.5', '3;0'), '', ':4: some numbers have a decimal point')
       call refuse(checks, lines('time;force', '0;1.234,5', '1;3', '2;2', '3;0'), '', ':2: column 2: this is not a number')
       call refuse(checks, 'force'//achar(13)//'1'//achar(13)//'2', '', ':1: carriage returns alone')

@@ -206,12 +206,19 @@ FAST = """&contact radius = 9.1e-3, length = 0.019, backlash = 110.0e-6, stiffne
 def test_a_motion_of_three_periods_and_an_irregular_one() -> None:
     """Both are as the closure has them; one that does not repeat has an exponent, and no multipliers."""
     reported = package.run(FAST).summary
-    assert reported["rattle_class"] == "subharmonic" and reported["orbit_period"] == 3 and "orbit_text" not in reported
+    assert (
+        reported["rattle_class"] == "subharmonic"
+        and reported["orbit_period"] == 3
+        and "orbit_text" not in reported
+    )
     assert reported["orbit_stability"] == "stable" and 0.6 < abs(multipliers_of(reported)[0]) < 0.8
     reported = package.run(FAST, set={"load.frequency": 196.0, "spectrum.periods": 8}).summary
     assert reported["rattle_class"] == "irregular" and reported["verification"] == "verified"
     assert 0.3 < reported["lyapunov_exponent"] < 0.65
-    assert reported["orbit_text"].startswith("no Floquet multipliers: ") and "floquet_multipliers" not in reported
+    assert (
+        reported["orbit_text"].startswith("no Floquet multipliers: ")
+        and "floquet_multipliers" not in reported
+    )
     assert "film_error" not in reported
 
 
@@ -235,7 +242,13 @@ def test_an_irregular_motion_is_that_of_the_periods_that_it_is_followed() -> Non
     longer = {"solver.periods": 25 + followed, "spectrum.periods": followed}
     unfollowed = {"spectrum.irregular_limit": 1.0, "spectrum.verify": False}
     alone = package.run(FAST, set=changes | longer | unfollowed).summary
-    for name in ("acceleration_rms", "film_force_rms", "dissipated_power", "film_minimum", "acceleration_maximum"):
+    for name in (
+        "acceleration_rms",
+        "film_force_rms",
+        "dissipated_power",
+        "film_minimum",
+        "acceleration_maximum",
+    ):
         assert reported[name] == pytest.approx(alone[name], rel=1e-12), name
     assert reported["impacts_drive"] == alone["impacts_drive"] > followed // 2
 
