@@ -3,7 +3,7 @@
 module collocation_basis
    use kinds, only: dp
    use lane_block, only: lane_block_t
-   use lane_force, only: total_forces
+   use lane_force, only: forces_of_lane, total_forces
    use lane_functions, only: lanes
    use radau_nodes, only: node, node_rows, powers_of_place, rows, stages
    implicit none(type, external)
@@ -20,8 +20,8 @@ module collocation_basis
    !> Step over the one before, at least, and the most for which polynomials are carried on
    real(dp), parameter :: least_growth = 0.1_dp, most_extrapolation = 2.0_dp
 
-   public :: choose_steps, forces_of_stages, can_extrapolate, carry_on, highest_terms, error_of_acceleration, growth_of, &
-             series_of_motion
+   public :: choose_steps, forces_of_stages, forces_at_nodes, can_extrapolate, carry_on, highest_terms, error_of_acceleration, &
+             growth_of, series_of_motion
 
 contains
 
@@ -52,6 +52,17 @@ contains
          call total_forces(phase, block%static_load, block%oscillation, force(:, i))
       end do
    end subroutine forces_of_stages
+
+   !> The same of one lane, to the same bits.
+   pure subroutine forces_at_nodes(lane, block, force)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      !> Scaled force [-]
+      real(dp), intent(out) :: force(rows)
+
+      call forces_of_lane(lane, min(1.0_dp, block%phase(lane) + node_rows*block%step(lane)), block%static_load(lane), &
+                          block%oscillation, force)
+   end subroutine forces_at_nodes
 
    !> Whether the polynomials of the step before may be carried on to the end of this one.
    pure logical function can_extrapolate(lane, block)

@@ -8,7 +8,7 @@
 !> The error is that of rigid teeth, of the polynomial of the acceleration (module collocation_basis); a load that is off moves its
 !> film by kappa as well, and so counts the first coefficient of its polynomial that is left out.
 module elastic_step
-   use collocation_basis, only: choose_steps, error_of_acceleration, forces_of_stages, growth_of, highest_terms, last_share, &
+   use collocation_basis, only: choose_steps, error_of_acceleration, forces_at_nodes, growth_of, highest_terms, last_share, &
       series_of_motion
    use elastic_newton, only: allowed_here, solve_loads
    use elastic_tangents, only: carry_tangents, lane_tangents_t
@@ -44,13 +44,12 @@ contains
       type(lane_inner_t), intent(inout) :: inner(lanes)
       !> Displacements that go along
       type(lane_tangents_t), intent(inout) :: tangents(lanes)
-      real(dp) :: force(lanes, stages), lane_force(rows)
+      real(dp) :: force(rows)
       type(trial_t) :: trial
       type(trial_inner_t) :: states
       integer :: l
 
       call choose_steps(block)
-      call forces_of_stages(block, force)
       block%next_film = block%film(:, 0)
       block%next_lienard = block%lienard(:, 0)
       block%accepted = 0.0_dp
@@ -60,9 +59,8 @@ contains
          call start_films(contacts(l), l, block, trial)
          if (inner(l)%count > 0) call first_states(l, block, trial%flanks, inner(l), states)
          call first_loads(l, block, contacts(l), inner(l), trial)
-         lane_force(:stages) = force(l, :)
-         lane_force(rows) = force(l, stages)
-         call solve_loads(contacts(l), l, lane_force, block, inner(l), trial, states)
+         call forces_at_nodes(l, block, force)
+         call solve_loads(contacts(l), l, force, block, inner(l), trial, states)
          call judge(contacts(l)%film%bends, l, trial, block, inner(l), states)
          if (block%accepted(l) > 0.0_dp .and. allocated(tangents(l)%now)) &
             call carry_tangents(contacts(l), l, trial, block, tangents(l))

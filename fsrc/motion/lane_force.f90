@@ -3,7 +3,7 @@ module lane_force
    use constants, only: two_pi
    use force, only: force_t
    use kinds, only: dp
-   use lane_functions, only: lane_cosine_sine, lanes
+   use lane_functions, only: half_block, half_cosine_sine, lane_cosine_sine, lanes
    use scene_types, only: highest_order
    use taylor_step_control, only: order
    implicit none(type, external)
@@ -36,7 +36,7 @@ module lane_force
    real(dp), parameter :: powers(order, highest_order + together) = &
       reshape([((real(n, dp)**(i - 1), i=1, order), n=1, highest_order + together)], [order, highest_order + together])
 
-   public :: no_forces, set_force, start_force, turn_to, move_forces, force_values, force_derivatives, total_forces
+   public :: no_forces, set_force, start_force, turn_to, move_forces, force_values, force_derivatives, total_forces, forces_of_lane
 
 contains
 
@@ -208,6 +208,38 @@ contains
          total = total + forces%cosine(:, n)*power%cosine + forces%sine(:, n)*power%sine
       end do
    end subroutine total_forces
+
+   !> The same of one lane at many phases, to the same bits.
+   pure subroutine forces_of_lane(lane, phase, steady, forces, total)
+      integer, intent(in) :: lane
+      !> From 0 to 1 [periods]
+      real(dp), intent(in) :: phase(half_block)
+      !> Steady part [-]
+      real(dp), intent(in) :: steady
+      type(lane_force_t), intent(in) :: forces
+      !> Force [-]
+      real(dp), intent(out) :: total(half_block)
+      real(dp), dimension(half_block) :: cosine, sine, power_cosine, power_sine
+      real(dp) :: next
+      integer :: n, i
+
+      call half_cosine_sine(phase, cosine, sine)
+      !$omp simd
+      do i = 1, half_block
+         total(i) = steady + forces%cosine(lane, 1)*cosine(i) + forces%sine(lane, 1)*sine(i)
+      end do
+      power_cosine = cosine
+      power_sine = sine
+      do n = 2, forces%highest
+         !$omp simd private(next)
+         do i = 1, half_block
+            next = power_cosine(i)*cosine(i) - power_sine(i)*sine(i)
+            power_sine(i) = power_sine(i)*cosine(i) + power_cosine(i)*sine(i)
+            power_cosine(i) = next
+            total(i) = total(i) + forces%cosine(lane, n)*power_cosine(i) + forces%sine(lane, n)*power_sine(i)
+         end do
+      end do
+   end subroutine forces_of_lane
 
    !> From a power of a point on the unit circle to the next one.
    pure subroutine raise(point, power)

@@ -23,7 +23,7 @@ module lane_functions
    !> `coarse_log` of 1.
    real(dp), parameter, public :: log_of_one = 1023.0_dp*octave
 
-   public :: lane_cosine_sine, lane_exponential, coarse_log, coarse_power, whole_below
+   public :: lane_cosine_sine, half_cosine_sine, lane_exponential, coarse_log, coarse_power, whole_below
 
 contains
 
@@ -42,6 +42,22 @@ contains
          call cosine_sine(phase(l), cosine(l), sine(l))
       end do
    end subroutine lane_cosine_sine
+
+   !> The same of half as many phases, to the same bits.
+   pure subroutine half_cosine_sine(phase, cosine, sine)
+      !> Phase from 0 to 1 [periods]
+      real(dp), intent(in) :: phase(half_block)
+      !> cos(2 pi phase) [-]
+      real(dp), intent(out) :: cosine(half_block)
+      !> sin(2 pi phase) [-]
+      real(dp), intent(out) :: sine(half_block)
+      integer :: l
+
+      !$omp simd
+      do l = 1, half_block
+         call cosine_sine(phase(l), cosine(l), sine(l))
+      end do
+   end subroutine half_cosine_sine
 
    !> Exponential function.
    pure subroutine lane_exponential(x, y)
