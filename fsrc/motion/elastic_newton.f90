@@ -17,7 +17,7 @@ module elastic_newton
 
    !> Slopes of the equations at the nodes, of one flank after the other: by the film, by its velocity and by its load [-]
    type, public :: slopes_t
-      real(dp), dimension(most_films) :: by_film = 0.0_dp, by_velocity = 0.0_dp, by_load = 0.0_dp
+      real(dp), dimension(most_films) :: by_film, by_velocity, by_load
       !> Whether the equation is that of velocities
       logical, dimension(most_films) :: of_velocities = .false.
    end type slopes_t
@@ -40,6 +40,10 @@ module elastic_newton
    !> too small.
    real(dp), parameter :: last_rise = 0.5_dp
 
+   integer :: i, j
+   !> 1 in the row of a node, and 0 in the others
+   real(dp), parameter :: alone(rows, stages) = reshape([((merge(1.0_dp, 0.0_dp, i == j), i=1, rows), j=1, stages)], [rows, stages])
+
    public :: solve_loads, allowed_here, residuals, newton_matrix
 
 contains
@@ -58,7 +62,7 @@ contains
       type(slopes_t) :: slopes
       type(factors_t) :: factors
       real(dp) :: matrix(most_rows, most_columns), right(most_rows), solution(most_rows), correction(rows, 2)
-      real(dp) :: change, last_change, ratio, reach, share, state_change
+      real(dp) :: change, last_change, ratio, reach, share, state_change, finite, above
       integer :: iteration, flank, i
       logical :: found, stalled, rising, anew, of_velocities(most_rows)
 
@@ -98,16 +102,30 @@ contains
                rising = rising .or. any(correction(:, flank) > last_rise*trial%load(:, flank))
                correction(:, flank) = max(correction(:, flank), (least_ratio - 1.0_dp)*trial%load(:, flank))
             end if
-            if (.not. all(abs(correction(:, flank)) < huge(1.0_dp))) return
-            change = max(change, maxval(abs(correction(:, flank))))
+            finite = 0.0_dp
+            !$omp simd reduction(+: finite) reduction(max: change)
+            do i = 1, rows
+               finite = finite + merge(1.0_dp, 0.0_dp, abs(correction(i, flank)) < huge(1.0_dp))
+               change = max(change, abs(correction(i, flank)))
+            end do
+            if (finite < real(rows, dp)) return
          end do
-         before = trial%iterate_t
+         ! Part by part: a copy of the whole takes longer.
+         before%load = trial%load
+         before%film = trial%film
+         before%velocity = trial%velocity
+         before%gain = trial%gain
          trial%load(:, :trial%flanks) = before%load(:, :trial%flanks) + correction(:, :trial%flanks)
          trial%gain(:, :trial%flanks) = before%gain(:, :trial%flanks) + correction(:, :trial%flanks)
          call follow_loads(contact, lane, force, block, trial)
          share = 1.0_dp
          do flank = 1, trial%flanks
-            if (minval(trial%film(:, flank) - least_ratio*before%film(:, flank)) >= 0.0_dp) cycle
+            above = huge(1.0_dp)
+            !$omp simd reduction(min: above)
+            do i = 1, rows
+               above = min(above, trial%film(i, flank) - least_ratio*before%film(i, flank))
+            end do
+            if (above >= 0.0_dp) cycle
             do i = 1, stages
                if (before%film(i, flank) > 0.0_dp .and. trial%film(i, flank) < least_ratio*before%film(i, flank)) &
                   share = min(share, (1.0_dp - least_ratio)*before%film(i, flank)/(before%film(i, flank) - trial%film(i, flank)))
@@ -190,12 +208,20 @@ contains
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
       type(trial_t), intent(in) :: trial
-      real(dp) :: thinner(rows)
+      real(dp) :: thinner, thinnest, thickest, widest
+      integer :: i
 
-      thinner = trial%film(:, 1)
-      if (trial%flanks == 2) thinner = min(thinner, trial%film(:, 2))
-      allowed_here = max(block%accuracy(lane)*min(film_weight(minval(thinner)), film_weight(maxval(thinner))), &
-                         rounding*maxval(trial%film(:, :trial%flanks)))
+      thinnest = huge(1.0_dp)
+      thickest = -huge(1.0_dp)
+      widest = -huge(1.0_dp)
+      !$omp simd private(thinner) reduction(min: thinnest) reduction(max: thickest, widest)
+      do i = 1, rows
+         thinner = merge(min(trial%film(i, 1), trial%film(i, 2)), trial%film(i, 1), trial%flanks == 2)
+         thinnest = min(thinnest, thinner)
+         thickest = max(thickest, thinner)
+         widest = max(widest, trial%film(i, 1), merge(trial%film(i, 2), trial%film(i, 1), trial%flanks == 2))
+      end do
+      allowed_here = max(block%accuracy(lane)*min(film_weight(thinnest), film_weight(thickest)), rounding*widest)
    end function allowed_here
 
    !> By how much the film laws miss at the nodes, and their slopes; none where a film has no load. A film without thickness is to
@@ -287,9 +313,9 @@ contains
       type(trial_t), intent(in) :: trial
       type(slopes_t), intent(in) :: slopes
       real(dp), intent(out) :: matrix(most_rows, most_columns)
-      real(dp), dimension(rows) :: by_film, by_velocity, by_load, by_gear, moved, rates
-      real(dp) :: turn
-      integer :: first, flank, other, column, j
+      real(dp), dimension(rows) :: by_film, by_velocity, follows, gear, own, moved, rates
+      real(dp) :: diagonal(stages)
+      integer :: first, flank, other, column, i, j
 
       matrix(rows*trial%flanks + 1:, :) = 0.0_dp
       associate (s => block%step(lane), flanks => trial%flanks)
@@ -298,31 +324,48 @@ contains
             ! The row that fills registers stays zero.
             by_film = slopes%by_film(first + 1:first + rows)
             by_velocity = slopes%by_velocity(first + 1:first + rows)
-            by_load = slopes%by_load(first + 1:first + rows)
             by_film(rows) = 0.0_dp
             by_velocity(rows) = 0.0_dp
+            follows = trial%follows(:, flank)
+            diagonal = slopes%by_load(first + 1:first + stages) + by_film(:stages)*trial%compliance(:stages, flank)
             do j = 1, stages
-               by_gear = s*(by_film*s*twice_rows(:, j) + by_velocity*once_rows(:, j))
+               !$omp simd
+               do i = 1, rows
+                  gear(i) = s*(by_film(i)*s*twice_rows(i, j) + by_velocity(i)*once_rows(i, j))
+               end do
                if (bends) then
-                  moved = trial%follows(:, flank)*twice_rows(:, j)
+                  !$omp simd
+                  do i = 1, rows
+                     moved(i) = follows(i)*twice_rows(i, j)
+                  end do
                   call weigh(slope_rows, moved, rates)
-                  by_gear = by_gear + s*(by_film*s*moved + by_velocity*rates)
+                  !$omp simd
+                  do i = 1, rows
+                     gear(i) = gear(i) + s*(by_film(i)*s*moved(i) + by_velocity(i)*rates(i))
+                  end do
                end if
                do other = 1, flanks
-                  turn = sign_of(flank)*sign_of(other)
-                  matrix(first + 1:first + rows, stages*(other - 1) + j) = turn*by_gear
+                  if (other == flank) cycle
+                  column = stages*(other - 1) + j
+                  !$omp simd
+                  do i = 1, rows
+                     matrix(first + i, column) = -gear(i)
+                  end do
                end do
-               column = stages*(flank - 1) + j
+               own = gear
                if (trial%damped) then
                   moved = trial%yields(:, j)
-                  if (bends) moved = moved*(1.0_dp + trial%follows(:, flank))
+                  if (bends) moved = moved*(1.0_dp + follows)
                   call weigh(slope_rows, moved, rates)
-                  matrix(first + 1:first + rows, column) = matrix(first + 1:first + rows, column) + &
-                                                           (by_film*moved + by_velocity*rates/s)
+                  own = own + (by_film*moved + by_velocity*rates/s)
                end if
-               matrix(first + 1:first + rows, column) = matrix(first + 1:first + rows, column) + &
-                                                        (trial%compliance(j, flank)/s)*by_velocity*slope_rows(:, j)
-               matrix(first + j, column) = matrix(first + j, column) + (by_load(j) + by_film(j)*trial%compliance(j, flank))
+               ! All rows at once: a number that is written alone would be waited for where its row is read.
+               column = stages*(flank - 1) + j
+               !$omp simd
+               do i = 1, rows
+                  matrix(first + i, column) = own(i) + (trial%compliance(j, flank)/s)*by_velocity(i)*slope_rows(i, j) + &
+                                              diagonal(j)*alone(i, j)
+               end do
             end do
          end do
       end associate
