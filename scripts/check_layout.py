@@ -57,6 +57,7 @@ KNOW_FLANKS = {
         "motion/nodal_state",
         "motion/nodal_step",
         "motion/nodal_tangent",
+        "orbit/nodal_neighbours",
         "orbit/nodal_orbit",
     ),
     "rows of a block: what steps take of a lane, and which number of a state each row is": (

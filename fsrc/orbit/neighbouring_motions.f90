@@ -44,7 +44,7 @@ contains
       type(neighbouring_motions_t) :: followed
       integer :: i
 
-      followed%problems = problems
+      allocate (followed%problems, source=problems)
       allocate (followed%here(size(problems)))
       allocate (followed%displacements(maxval(state_size(problems)), 1, size(problems)), source=0.0_dp)
       do i = 1, size(problems)
