@@ -42,6 +42,8 @@ def assert_says(figure: Figure, expected: Sequence[str | None]) -> None:
 
 
 def film_of(given: Mapping[str, Any]) -> str:
+    if given["film"]["law"] == "elastohydrodynamic":
+        return f"elastohydrodynamic film ({given['film']['model']})"
     model = {"reynolds": "Reynolds", "published": "published"}[given["film"]["model"]]
     return f"{model} {given['film']['law']} film"
 

@@ -133,8 +133,10 @@ def test_a_coarse_series_without_extremes_says_so(tmp_path):
     assert notes(made.axes[0]) == ["Series of too few samples; what lies between them is not known"]
 
 
-def test_an_overlay_names_the_coarse_run(tmp_path, result):
+@pytest.mark.parametrize("draw", [histories.draw_acceleration, histories.draw_film_and_force])
+def test_an_overlay_names_the_run_whose_extremes_it_misses(tmp_path, result, draw):
+    runs = [coarse(tmp_path, "missed", film_lines={0.5: 1e-3}), coarse(tmp_path, "drawn"), result]
     with style.house_style():
-        made = histories.draw_acceleration([coarse(tmp_path, "b"), result], ["b", "a"], 4)
-    assert drawn.legend_words(made) == ["b, too few samples", "a"]
+        made = draw(runs, ["missed", "drawn", "a"], 4)
+    assert drawn.legend_words(made) == ["missed, too few samples", "drawn", "a"]
     assert "too few" not in histories.draw_acceleration([result], ["a"], 4).axes[0].get_title()

@@ -31,9 +31,8 @@ def draw_film_and_force(results: Sequence[Result], labels: Sequence[str], period
     lines = style.run_lines([result.law for result in results])
     for result, label, line in zip(results, labels, lines, strict=True):
         force_line = {"color": style.FORCE_COLOUR} if len(results) == 1 else line
-        film_axes.plot(
-            *last_periods(result, FILM, periods, 1e6), label=style.curve_label(result, label), **line
-        )
+        few = bool(coarse_words(result, FILM, periods, r"$\mathrm{\mu}$m", 1e6))
+        film_axes.plot(*last_periods(result, FILM, periods, 1e6), label=style.curve_label(label, few), **line)
         force_axes.plot(*last_periods(result, "applied_force", periods), **force_line)
     for axes in (film_axes, force_axes):
         period_rules(axes, results, periods)
@@ -57,9 +56,8 @@ def draw_acceleration(results: Sequence[Result], labels: Sequence[str], periods:
     axes.axhline(0.0, color=style.PERIOD_COLOUR, linewidth=0.7, zorder=0)
     lines = style.run_lines([result.law for result in results])
     for result, label, line in zip(results, labels, lines, strict=True):
-        axes.plot(
-            *last_periods(result, "acceleration", periods), label=style.curve_label(result, label), **line
-        )
+        few = bool(coarse_words(result, "acceleration", periods, "m/s$^2$"))
+        axes.plot(*last_periods(result, "acceleration", periods), label=style.curve_label(label, few), **line)
     period_rules(axes, results, periods)
     axes.set_ylabel(style.of_acceleration(style.ACCELERATION_LABEL, results))
     axes.set_xlabel(time_label(results, periods))

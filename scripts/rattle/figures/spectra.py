@@ -156,7 +156,7 @@ def draw_acceleration(
         axes.set_xlabel(scale)
     else:
         names = [
-            f"{label}, by its summary" if summary else style.curve_label(result, label)
+            f"{label}, by its summary" if summary else style.curve_label(label, result.coarse)
             for result, summary, label in zip(results, summaries, labels, strict=True)
         ]
         handles = _draw_overlay(axes, names, spectra, factors)

@@ -192,9 +192,9 @@ def overlay_title(subject: str, results: Sequence[Result]) -> str:
     return f"{subject}: {len(results)} runs, {' and '.join(films)}"
 
 
-def curve_label(result: Result, label: str) -> str:
-    """A run label in the legend of several."""
-    return f"{label}, {FEW_SAMPLES}" if result.coarse else label
+def curve_label(label: str, few: bool) -> str:
+    """A run label in the legend of several; `few` where its curve misses what lies between the samples."""
+    return f"{label}, {FEW_SAMPLES}" if few else label
 
 
 def name_runs(
