@@ -175,6 +175,11 @@ def test_figures_are_drawn(reported: Path) -> None:
     assert figure_stems(reported) == ["countermeasures_pair"]
 
 
+def words_left(end: str) -> set[str]:
+    """The verdicts that are left when it has ended."""
+    return {CODES["verdict"][code] for code in TARGETS[end]}
+
+
 def test_a_gearbox_is_solved_again_with_what_is_advised(tmp_path: Path) -> None:
     path = tmp_path / "box.nml"
     path.write_text(TWO)
@@ -186,11 +191,13 @@ def test_a_gearbox_is_solved_again_with_what_is_advised(tmp_path: Path) -> None:
         after = package.run(path, set=measure.settings)
         force = {name: after[name].summary["loudest_film_force_rms"] for name in after}
         assert {name: one.force for name, one in measure.result.pairs.items()} == force
+        assert all(after[name].summary["verdict"] in words_left(end) for name, end in measure.ends.items())
         change = [one.summary["film_force_rms_uncorrelated"] for one in (after, before)]
         assert measure.result.change_db(found.scenes.together)[0] == pytest.approx(
             20.0 * math.log10(change[0] / change[1])
         )
     (backlash,) = (one for one in found.together if one.name == "backlash")
+    assert set(backlash.ends) == {"large", "small"}
     assert set(backlash.settings) == {"gear(1).backlash", "gear(2).backlash"}
     values = [
         m.best[1].value for pair in found.pairs for m in pair.measures if m.lever.key == "gear.backlash"

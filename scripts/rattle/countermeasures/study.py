@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from rattle.command import CommandError
@@ -90,6 +90,7 @@ class BoxMeasure:
     """What is changed of all pairs at once, and what they do then.
 
     `confirmed`: each pair that it was to calm is calm; None of a variant, of which nothing was predicted.
+    `ends`: what it was to end in each of these pairs.
     """
 
     name: str
@@ -97,6 +98,7 @@ class BoxMeasure:
     result: Together
     confirmed: bool | None = None
     cost: float = math.nan
+    ends: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -209,10 +211,9 @@ def _together(scenes: Scenes, pairs: Sequence[PairStudy]) -> list[BoxMeasure]:
             _, _, lever, _, end = max(chosen, key=lambda one: abs(one[4].share))
             settings = lever.settings(end.value)
         result = scenes.solve(settings)
-        confirmed = all(
-            result.pairs[pair.name].verdict in TARGETS[target] for _, pair, _, target, _ in chosen
-        )
-        found.append(BoxMeasure(name, settings, result, confirmed))
+        ends = {pair.name: target for _, pair, _, target, _ in chosen}
+        confirmed = all(result.pairs[pair].verdict in TARGETS[end] for pair, end in ends.items())
+        found.append(BoxMeasure(name, settings, result, confirmed, ends=ends))
     return sorted(found, key=lambda one: (rattling(one.result), _force(one.result)))
 
 
