@@ -13,13 +13,13 @@ module classify_group
    use many_motions, only: solve_motions
    use memory_need, only: expect_window_memory
    use neighbouring_motions, only: beside_neighbours, neighbouring_motions_t
-   use periodic_orbit, only: attracting_period, longest_period, longest_settled, periodic_orbit_t
+   use periodic_orbit, only: attracting_period, periodic_orbit_t
    use prepared_scene, only: prepared_scene_t
    use problem, only: state_size
    use rattle_class, only: class_creep, class_irregular_so_far, classify_steps, note_orbit, note_parting, &
       rattle_verdict_t
    use scene_group, only: has_window, scene_group_t
-   use scene_orbit, only: nearby_orbit
+   use scene_orbit, only: long_orbit, nearby_orbit
    use scene_status, only: is_success
    use scene_types, only: spectrum_choice_t
    use signals, only: must_stop
@@ -225,7 +225,7 @@ contains
       left = pack([(i, i=1, size(scenes))], is_left)
       do i = 1, size(left)
          if (must_stop()) return
-         call note_nearby_orbit(scenes(left(i)), longest_period, left(i), group)
+         call take_orbit(nearby_orbit(scenes(left(i))%resolved%problem, group%endings(left(i))), left(i), group)
       end do
       left = pack(left, group%verdicts(left)%class == class_irregular_so_far)
       if (size(left) > 0) then
@@ -235,7 +235,8 @@ contains
       do i = 1, size(left)
          if (must_stop()) return
          ! What settles may repeat after more periods than are looked for before.
-         if (draws_near(group%verdicts(left(i))%parting)) call note_nearby_orbit(scenes(left(i)), longest_settled, left(i), group)
+         if (draws_near(group%verdicts(left(i))%parting)) &
+            call take_orbit(long_orbit(scenes(left(i))%resolved%problem, group%endings(left(i))), left(i), group)
       end do
       call complete_windows(scenes, group)
    end subroutine follow_irregular
@@ -269,20 +270,16 @@ contains
       end do
    end subroutine follow_beside_neighbours
 
-   !> Note the periodic motion at the end of a scene, if there is one.
-   subroutine note_nearby_orbit(scene, longest, place, group)
-      type(prepared_scene_t), intent(in) :: scene
-      !> Longest period that is looked for
-      integer, intent(in) :: longest
+   !> Take the periodic motion at the end of a scene, if there is one.
+   subroutine take_orbit(orbit, place, group)
+      type(periodic_orbit_t), intent(in) :: orbit
       !> Of the scene in the group
       integer, intent(in) :: place
       type(scene_group_t), intent(inout) :: group
-      type(periodic_orbit_t) :: orbit
 
-      orbit = nearby_orbit(scene%resolved%problem, group%endings(place), longest)
       call note_orbit(group%verdicts(place), attracting_period(orbit))
       if (orbit%period > 0) group%repeat_after(place) = orbit%period
-   end subroutine note_nearby_orbit
+   end subroutine take_orbit
 
    !> Complete the windows of motions that repeat after a number of periods that does not divide them: follow these from where the
    !> window begins over whole periods of the motion.

@@ -5,7 +5,8 @@ module scene_orbit
    use kinds, only: dp
    use known_motions, only: are_near, distance_of, known_motions_t, near_states
    use many_motions, only: solve_motions
-   use periodic_orbit, only: attracting_period, find_periodic_orbit, longest_settled, map_states, periodic_orbit_t
+   use periodic_orbit, only: attracting_period, find_periodic_orbit, longest_period, longest_settled, map_states, orbit_of_period, &
+      periodic_orbit_t
    use problem, only: problem_t
    use scene_status, only: status_complete
    use text_output, only: lock_texts, unlock_texts
@@ -23,26 +24,52 @@ module scene_orbit
    integer, parameter :: parts = 6, part_periods = 10
    !> How close a motion has to come to where it was for a periodic one to be next to it, relative to the film [-]
    real(dp), parameter :: close_return = 0.005_dp
+   !> How much nearer than after a short period a motion has to come after a long one [-]
+   real(dp), parameter :: long_share = 0.1_dp
    !> Accuracy with which a periodic motion is followed through its periods [-]
    real(dp), parameter :: accuracy = 1.0e-10_dp
 
-   public :: nearby_orbit, orbit_of, orbit_ahead
+   public :: nearby_orbit, long_orbit, orbit_of, orbit_ahead
 
 contains
 
    !> The periodic motion at the end of a run, if there is one.
-   type(periodic_orbit_t) function nearby_orbit(problem, ending, longest)
+   type(periodic_orbit_t) function nearby_orbit(problem, ending)
       !> What moves
       type(problem_t), intent(in) :: problem
       !> Where its motion ended
       class(motion_state_t), intent(in) :: ending
-      !> Longest period that is looked for, as of find_periodic_orbit
-      integer, intent(in), optional :: longest
 
       call unlock_texts()
-      nearby_orbit = find_periodic_orbit(problem, ending%numbers, orbit_nearness, longest)
+      nearby_orbit = find_periodic_orbit(problem, ending%numbers, orbit_nearness)
       call lock_texts()
    end function nearby_orbit
+
+   !> The periodic motion at the end of one that settles, if it has a long period: if it comes far nearer to where it was after one.
+   type(periodic_orbit_t) function long_orbit(problem, ending) result(orbit)
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      !> Where its motion ended
+      class(motion_state_t), intent(in) :: ending
+      real(dp) :: distances(longest_settled), scale(size(ending%numbers)), states(size(ending%numbers), 1)
+      integer :: period
+      logical :: mapped
+
+      scale = counts_as(problem, ending%numbers)/thinnest_film(problem, ending%numbers)
+      states(:, 1) = ending%numbers
+      call unlock_texts()
+      do period = 1, longest_settled
+         call map_states(problem, 1, ahead_accuracy, states, mapped)
+         if (.not. mapped) exit
+         distances(period) = maxval(abs(states(:, 1) - ending%numbers)*scale)
+      end do
+      if (mapped) then
+         period = longest_period + minloc(distances(longest_period + 1:), dim=1)
+         if (distances(period) < min(orbit_nearness, long_share*minval(distances(:longest_period)))) &
+            orbit = orbit_of_period(problem, period, ending%numbers, orbit_nearness)
+      end if
+      call lock_texts()
+   end function long_orbit
 
    !> The stable periodic motion that one which settles slowly comes to, or none. It is followed on: where it comes back to where it was,
    !> a periodic motion may be next to it. Else Newton's method may lead to one from its end, however far that is, since next to an
@@ -78,20 +105,25 @@ contains
       !> End of a period, number of the state
       real(dp), intent(in) :: states(:, :)
       real(dp) :: distance, nearest, scale(size(states, 2))
-      integer :: i, period, place
+      integer :: i, period, after, place
 
       nearest = close_return
-      place = 0
+      after = 0
       do i = 1, size(states, 1)
          scale = counts_as(problem, states(i, :))/thinnest_film(problem, states(i, :))
          do period = 1, min(longest_settled, size(states, 1) - i)
             distance = maxval(abs(states(i + period, :) - states(i, :))*scale)
-            if (distance >= nearest) cycle
+            if (distance >= merge(1.0_dp, long_share, period <= longest_period)*nearest) cycle
             nearest = distance
+            after = period
             place = i
          end do
       end do
-      if (place > 0) orbit = find_periodic_orbit(problem, states(place, :), orbit_nearness, longest_settled)
+      if (after > longest_period) then
+         orbit = orbit_of_period(problem, after, states(place, :), orbit_nearness)
+      else if (after > 0) then
+         orbit = find_periodic_orbit(problem, states(place, :), orbit_nearness)
+      end if
       if (attracting_period(orbit) == 0) orbit = periodic_orbit_t()
    end function orbit_of_return
 

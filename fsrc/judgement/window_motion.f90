@@ -48,8 +48,9 @@ contains
             call follow_periods(problem, orbit%period, own)
             if (own%period > 0) own%rms_is_rough = modulo(judged%window_periods, own%period) > 0
          end if
-         coexisting%motions = [motion_summary_t(class=group%verdicts(place)%class, period=own%period, from_own_start=.true., &
-                                                starts=1, acceleration_rms=judged%severity%acceleration_rms, &
+         coexisting%motions = [motion_summary_t(class=group%verdicts(place)%class, from_own_start=.true., starts=1, &
+                                                period=reported_period(own, group%verdicts(place)%class), &
+                                                acceleration_rms=judged%severity%acceleration_rms, &
                                                 film_force_rms=judged%severity%film_force_rms, &
                                                 film_minimum=judged%extremes%lowest(seen_films(1))%value)]
          associate (motion => coexisting%motions(1))
@@ -69,8 +70,8 @@ contains
    end subroutine note_own_motion
 
    !> A motion by its window. Where the run ended before the motion repeats within the accuracy, the states of the window show after
-   !> how many periods they come again near enough, or the periodic motion that was found next to its end. One that is irregular comes
-   !> near where it was and parts from there again, and one that is irregular so far may creep along and be far from where it settles.
+   !> how many periods they come again near enough, or the periodic motion that was found next to its end. One that is irregular so
+   !> far may creep along by less than that and be far from where it settles.
    type(settled_motion_t) function motion_of_window(problem, samples_per_period, place, group) result(motion)
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: samples_per_period
@@ -89,7 +90,7 @@ contains
             states(:, i) = group%states(i*samples_per_period, :size(states, 1), place)
          end do
          motion%period = ending%orbit
-         if (motion%period == 0 .and. all(group%verdicts(place)%class /= [class_irregular, class_irregular_so_far])) &
+         if (motion%period == 0 .and. group%verdicts(place)%class /= class_irregular_so_far) &
             motion%period = near_orbit(problem, near_states(problem), states)
          motion%states = states(:, periods - max(1, motion%period) + 1:)
          if (motion%period == 0 .and. group%verdicts(place)%class == class_subharmonic .and. group%repeat_after(place) > 1) &
@@ -135,7 +136,7 @@ contains
       record = judged_record(group, place)
       severity = severity_of_record(record, problem%frequency)
       summary%class = group%verdicts(place)%class
-      summary%period = motion%period
+      summary%period = reported_period(motion, summary%class)
       allocate (summary%state, source=motion%states(:, 1))
       if (record%loads%impact_limit > 0.0_dp) &
          summary%verdict = verdict_of(problem, extremes_of_record(record), impacts_of_record(record, problem%frequency))
@@ -143,6 +144,14 @@ contains
       summary%film_force_rms = severity%film_force_rms
       summary%film_minimum = record%lowest(seen_films(1))%value
    end function summary_of_window
+
+   !> Periods after which a motion repeats: one that is irregular in narrow bands comes near where it was, and parts from there again.
+   elemental integer function reported_period(motion, class) result(period)
+      type(settled_motion_t), intent(in) :: motion
+      integer, intent(in) :: class
+
+      period = merge(0, motion%period, class == class_irregular)
+   end function reported_period
 
    !> Periods of the force after which the states of a window come again near enough, 0 if they do not within half of it.
    pure integer function near_orbit(problem, measure, states) result(orbit)

@@ -49,7 +49,7 @@ module periodic_orbit
       complex(dp), allocatable :: multipliers(:)
    end type periodic_orbit_t
 
-   public :: map_states, find_periodic_orbit, attracting_period, orbit_stability
+   public :: map_states, find_periodic_orbit, orbit_of_period, attracting_period, orbit_stability
 
 contains
 
@@ -120,12 +120,29 @@ contains
          call map_states(problem, 1, search_accuracy, images, mapped)
          if (.not. mapped) return
          if (maxval(abs(images(:, 1) - state)*scale) > nearness*thinnest_film(problem, state)) cycle
-         other = newton(problem, period, state, scale, nearness)
-         if (other%period > 0) other = shortest(problem, other, scale, nearness)
+         other = orbit_of_period(problem, period, state, nearness)
          if (other%period > 0 .and. (orbit%period == 0 .or. attracting_period(other) > 0)) orbit = other
          if (attracting_period(orbit) > 0) return
       end do
    end function find_periodic_orbit
+
+   !> The periodic motion near a state that comes near itself after some periods, with its shortest period.
+   function orbit_of_period(problem, period, state, nearness) result(orbit)
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      !> Periods of the force
+      integer, intent(in) :: period
+      !> State at the start of a period of the force
+      real(dp), intent(in) :: state(:)
+      !> Distance at which a periodic motion is another one, relative to the film [-]
+      real(dp), intent(in) :: nearness
+      type(periodic_orbit_t) :: orbit
+      real(dp) :: scale(size(state))
+
+      scale = counts_as(problem, state)
+      orbit = newton(problem, period, state, scale, nearness)
+      if (orbit%period > 0) orbit = shortest(problem, orbit, scale, nearness)
+   end function orbit_of_period
 
    !> Periods of the force after which motions near a periodic one repeat, 0 where there is none or they leave it.
    pure integer function attracting_period(orbit) result(period)

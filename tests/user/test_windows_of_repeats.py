@@ -122,4 +122,3 @@ def test_an_irregular_motion_has_no_period(folder: Path) -> None:
     assert summary["rattle_class"] == "irregular" and summary["lyapunov_exponent"] > 0.0
     motions = result.motions.to_dataframe()
     assert list(motions.orbit_period[motions.rattle_class_word == "irregular"]) == [0.0]
-    assert summary["unsettled_starts"] == motions.starts[motions.rattle_class_word == "irregular"].sum() > 0
