@@ -66,6 +66,9 @@ keep flanks_loose_gear.png loose_gear.png
 keep motion_loose_gear.gif loose_gear.gif
 "$python" scripts/countermeasures.py --overwrite --output "$runs" input/rattling_gear.nml > "$runs/countermeasures.txt"
 keep countermeasures_rattling_gear.png countermeasures.png
+solve input/gearbox_run_up.nml
+plot sweep "$runs/gearbox_run_up.rattle"
+keep sweep_gearbox_run_up.png run_up.png
 solve input/gearbox_orders.nml
 plot orders "$runs/gearbox_orders.rattle"
 keep orders_gearbox_orders.4th.png orders.png

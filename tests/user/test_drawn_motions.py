@@ -352,7 +352,11 @@ def test_a_sweep_shows_both_ways_and_leaves_gaps(first_column, tmp_path):
     assert period.get_ylim() == (0.5, 4.5)
     assert multiplier.get_ylim() == (0.0, 1.1)
     assert drawn.rules(multiplier, "y") == [1.0]
-    assert drawn.legend_words(made) == ["increasing", "decreasing"]
+    assert drawn.legend_words(made) == ["increasing", "decreasing", "hysteresis"]
+    # At 200 alone both ways have motions of their own; at 300 that of one way is not known.
+    for axes in made.axes:
+        (band,) = axes.patches
+        assert (band.get_x(), band.get_width()) == (150.0, 100.0)
 
 
 @pytest.mark.parametrize(

@@ -27,6 +27,7 @@ from rattle.figures import (
     sweep,
     threshold,
 )
+from rattle.run_up import differing
 from rattle.thresholds import thresholds
 
 PERIODS = 4
@@ -209,7 +210,12 @@ def test_words_of_a_sweep(solved, run, repository, tmp_path, of_gear):
     both = (result["direction"] < 0.0).any()
     limit = result.input["spectrum"]["idle_harmonics"]
     assert_says(
-        sweep.draw(result, panels=tuple(sweep.PANELS), marks=[(850.0, "here")]),
+        # Only a sweep over speed has a rate.
+        sweep.draw(
+            result,
+            panels=tuple(name for name in sweep.PANELS if of_gear or name != sweep.RATE),
+            marks=[(850.0, "here")],
+        ),
         [
             f"Steady motions: {result.scene_name}, {film_of(result.input)}",
             "Film [$\\mathrm{\\mu}$m]",
@@ -218,10 +224,12 @@ def test_words_of_a_sweep(solved, run, repository, tmp_path, of_gear):
             f"idle from {limit} harmonics on",
             "Period [$1/f$]",
             "Floquet multiplier",
+            "Rate [1/min/s]" if of_gear else None,
             key,
             "here",
             "increasing",
             "decreasing" if both else None,
+            "hysteresis" if differing(result).size else None,
         ],
     )
 

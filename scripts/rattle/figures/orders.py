@@ -19,6 +19,7 @@ from rattle.csv_table import read_csv_table
 from rattle.figures import style
 from rattle.figures.campaign_look import cell_edges
 from rattle.figures.spectra import LEVEL_LABEL, REFERENCE
+from rattle.run_up import first_order
 
 DESCRIPTION = (
     "Draw the level of the acceleration at each engine order over the speed of the shaft, as orders_NAME: "
@@ -86,12 +87,9 @@ def computed(campaign: Campaign) -> Cuts:
     names = [name for name in campaign.names if re.fullmatch(r"harmonic_\d+", name)]
     if not names:
         raise command.CommandError(f"{campaign.path} has no harmonics: name 'harmonics' in campaign.record.")
-    base = re.search(r"^! derived: load\.frequency = (\S+)", campaign.input_text, re.MULTILINE)
-    speed = campaign.input.get("shaft", {}).get("speed_rpm")
-    if base is None or not speed:
+    first = first_order(campaign)
+    if first is None:
         raise command.CommandError(f"{campaign.path} has no &shaft whose orders could count.")
-    # All harmonics are multiples of the common divisor of the engine orders, at every speed.
-    first = float(base[1]) * 60.0 / float(speed)
     order = np.argsort(campaign[SPEED])
     usable = campaign.done & ~campaign.failed
     amplitudes = np.column_stack(

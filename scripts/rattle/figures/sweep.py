@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 import rattle
-from rattle import command
+from rattle import command, run_up
 from rattle.campaign_section import short_name
 from rattle.codes import SUCCESSES
 from rattle.figures import style
@@ -36,6 +36,7 @@ WAYS = (
     ("increasing", 1.0, style.RUN_COLOURS[0], "-"),
     ("decreasing", -1.0, style.RUN_COLOURS[1], (0, (4, 2))),
 )
+SHADE = "0.85"
 MARKED = 12  # marks along a curve of an overlay
 
 
@@ -68,14 +69,22 @@ def _plain(name: str) -> Callable[[Result, np.ndarray], Sequence[np.ndarray]]:
     return lambda result, rows: [column(result, name, rows)]
 
 
+def _rate(result: Result, rows: np.ndarray) -> list[np.ndarray]:
+    if not run_up.is_run_up(result):
+        raise command.CommandError(f"{result.path} is no sweep over shaft.speed_rpm, which has a rate.")
+    return [run_up.pace(result).rates[rows]]
+
+
 PANELS = {
     "film": Panel(r"Film [$\mathrm{\mu}$m]", _films),
     "acceleration": Panel(r"Peak $|\ddot{z}|$ [m/s$^2$]", _peak),
     "harmonics": Panel("Harmonics", _plain("harmonic_count")),
     "period": Panel(r"Period [$1/f$]", _plain("orbit_period"), 1.0),
     "multiplier": Panel("Floquet multiplier", _plain("floquet_modulus"), 1.6),
+    "rate": Panel("Rate [1/min/s]", _rate, 1.6),
 }
 DEFAULT_PANELS = ("film", "acceleration", "period", "multiplier")
+RATE = "rate"  # drawn of sweeps over speed, unless panels are chosen
 
 
 def add_options(parser: ArgumentParser) -> None:
@@ -85,9 +94,9 @@ def add_options(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--panels",
         type=panels,
-        default=DEFAULT_PANELS,
+        default=None,
         metavar="NAMES",
-        help=f"of {', '.join(PANELS)} (all but harmonics)",
+        help=f"of {', '.join(PANELS)} (all but harmonics; rate of a run-up only)",
     )
     parser.add_argument(
         "--mark",
@@ -136,9 +145,11 @@ def run(options: Namespace) -> None:
 
 
 def draw(
-    *results: Result, panels: Sequence[str] = DEFAULT_PANELS, marks: Sequence[tuple[float, str]] = ()
+    *results: Result, panels: Sequence[str] | None = None, marks: Sequence[tuple[float, str]] = ()
 ) -> Figure:
     """The panels over the swept key; of several sweeps each has colour and mark, a direction its dashes."""
+    if panels is None:
+        panels = (*DEFAULT_PANELS, *([RATE] if all(map(run_up.is_run_up, results)) else []))
     chosen = [PANELS[name] for name in panels]
     heights = [panel.height for panel in chosen]
     figure = Figure(figsize=(style.WIDTH, 0.8 + 0.77 * sum(heights)))
@@ -193,6 +204,7 @@ def label_of(name: str, results: Sequence[Result]) -> str:
 
 def _draw_single(result: Result, all_axes: Mapping[str, Axes]) -> dict[str, object]:
     handles: dict[str, object] = {}
+    shaded = _shade(result, all_axes)
     for name, direction, colour, dashes in WAYS:
         rows = of_direction(result, direction)
         if rows.size == 0:
@@ -202,6 +214,19 @@ def _draw_single(result: Result, all_axes: Mapping[str, Axes]) -> dict[str, obje
             for values in PANELS[panel].curves(result, rows):
                 (curve,) = axes.plot(value, values, color=colour, linestyle=dashes)
                 handles.setdefault(name, curve)
+    return handles | shaded
+
+
+def _shade(result: Result, all_axes: Mapping[str, Axes]) -> dict[str, object]:
+    """Stretches in which both ways have motions of their own, half a step beyond their last values."""
+    values = np.unique(result[result.names[0]])
+    apart = np.flatnonzero(np.isin(values, run_up.differing(result)))
+    middles = np.concatenate([values[:1], 0.5 * (values[1:] + values[:-1]), values[-1:]])
+    handles: dict[str, object] = {}
+    for stretch in np.split(apart, np.flatnonzero(np.diff(apart) > 1) + 1) if apart.size else []:
+        for axes in all_axes.values():
+            band = axes.axvspan(middles[stretch[0]], middles[stretch[-1] + 1], color=SHADE, lw=0.0, zorder=0)
+        handles["hysteresis"] = band
     return handles
 
 
@@ -246,6 +271,10 @@ def _dress(results: Sequence[Result], all_axes: Mapping[str, Axes]) -> None:
     if multiplier := all_axes.get("multiplier"):
         multiplier.axhline(1.0, color=style.FAINT_COLOUR, linewidth=0.8)
         multiplier.set_ylim(0.0, 1.1)
+    if rate := all_axes.get(RATE):
+        rate.set_yscale("log")
+        rate.yaxis.set_major_formatter("{x:g}")
+        rate.yaxis.set_minor_formatter("")
     if lines := all_axes.get("harmonics"):
         lines.set_ylim(bottom=0.0)
         limits = {result.input.get("spectrum", {}).get("idle_harmonics") for result in results} - {None}

@@ -11,9 +11,9 @@ from rattle.codes import SUCCESSES, spoken, word
 from rattle.figures import sweep as picture
 from rattle.report import motion, page
 from rattle.result import Result
+from rattle.run_up import LEFT, SPEED, differing, is_run_up, pace, peaks
 
 WAYS = (("there", 1.0), ("back", -1.0))
-SAME_PEAKS = 0.01  # share by which the largest accelerations of one motion differ at most
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,38 @@ def sentences_on(result: Result) -> Iterator[str]:
         longest = int(np.nanmax(result["orbit_period"], initial=0.0))
         if longest > 1:
             yield f"Some motions repeat only after several periods of the force, at most {longest}."
+    if is_run_up(result):
+        yield from pace_of_run_up(result)
     yield "A sweep gives no verification of its classes; the single scene at a value of interest does."
+
+
+def pace_of_run_up(result: Result) -> Iterator[str]:
+    """How slow a driven run-up has to be for these motions to be its own, and where none is slow enough."""
+    found = pace(result)
+    row = found.slowest
+    if row is None:
+        yield "No rate of a run-up is known at which these are its motions: no multiplier below 1 is known."
+        return
+    way = next(name for name, direction in WAYS if direction == result["direction"][row])
+    yield (
+        f"A run-up has these motions if it is driven at {found.rates[row]:.3g} 1/min/s or slower: a "
+        f"disturbance then shrinks to {LEFT:.0%} from one value to the next. What takes longest is the way "
+        f"{way} at {result[SPEED][row]:.6g} 1/min, where {result['floquet_modulus'][row]:.3g} of it is left "
+        "after each period of the motion. Finer steps, the more towards a jump, take longer."
+    )
+    for direction, words in ((1.0, "up"), (-1.0, "down")):
+        spans = [f"{a:.6g} and {b:.6g}" for a, b, own in found.changes if own == direction]
+        if spans:
+            yield (
+                f"On the way {words} the motion jumps or changes its period between {', '.join(spans)} "
+                "1/min; no rate is slow enough there."
+            )
+    irregular = int((np.asarray(result["orbit_period"]) == 0.0).sum())
+    if irregular:
+        yield (
+            f"At {irregular} of {result.row_count} values the motion is not known to repeat: no rate is "
+            "known there."
+        )
 
 
 def known_both_ways(result: Result) -> bool:
@@ -116,28 +147,6 @@ def known_both_ways(result: Result) -> bool:
     kept = np.isin(result["status"], SUCCESSES)
     there, back = (result[result.names[0]][kept & (result["direction"] == way)] for _, way in WAYS)
     return bool(np.isin(back, there).any())
-
-
-def differing(result: Result) -> np.ndarray:
-    """Values of the key at which the motion on the decreasing is another than on the increasing."""
-    kept = np.isin(result["status"], SUCCESSES)
-    rows = zip(
-        result[result.names[0]], result["direction"], result["rattle_class"], peaks(result), kept, strict=True
-    )
-    there, found = {}, []
-    for value, direction, name, peak, known in rows:
-        if not known:
-            continue
-        if direction > 0.0:
-            there[value] = (name, peak)
-        elif value in there and (name != there[value][0] or abs(peak - there[value][1]) > SAME_PEAKS * peak):
-            found.append(value)
-    return np.array(found)
-
-
-def peaks(result: Result) -> np.ndarray:
-    """Largest size of the acceleration of each motion."""
-    return np.maximum(-result["acceleration_minimum"], result["acceleration_maximum"])
 
 
 def tables(result: Result) -> list[str]:
@@ -162,4 +171,11 @@ def figures(result: Result) -> list[str]:
         "the motion, "
         "and how much of a disturbance is left after one period (below 1: the motion is stable)."
     )
+    if is_run_up(result):
+        caption += (
+            " Last, the fastest run-up that has these motions: faster, it lags behind them. Where there is "
+            "none, the motion jumps, changes its period or is not known to repeat."
+        )
+    if differing(result).size:
+        caption += " Shaded: both ways have motions of their own."
     return [page.drawing(lambda: picture.draw(result), caption, f"{result.scene_name} sweep")]
