@@ -17,6 +17,11 @@ if TYPE_CHECKING:
 
 SHORTEST, LONGEST = 0.2, 600.0  # seconds
 CLIPPED = 1.0
+MOST_SPEEDS = 9  # that are listed
+QUASI_STEADY = (
+    "Quasi-steady: at each speed its own steady motion from rest is heard, cross-faded into the next. A "
+    "driven run-up lags behind and jumps later (input/CAMPAIGNS.md)."
+)
 WITHOUT_LIBRARY = (
     "Loudness and sharpness are left out: MoSQITo is not installed; pip install 'rattle[sound]' brings it."
 )
@@ -35,6 +40,8 @@ def main() -> None:
     from rattle.sound import track, transfer  # scipy only where a sound is made
 
     function = transfer.read_transfer(options.transfer) if options.transfer else transfer.generic()
+    if options.rate is not None:
+        return run_up(options, function)
     variants = grouped(options.results)
     for result in (result for variant in variants for result in variant.results):
         command.note_open(result)
@@ -47,6 +54,34 @@ def main() -> None:
     print(f"through {function.words}; a sample of 1 is {scale:.4g} Pa")
     for words in remarks(found, function, scale):
         command.note(words)
+    print(options.output)
+
+
+def run_up(options: argparse.Namespace, function) -> None:
+    """A run-up, whose result is a campaign over speed."""
+    import rattle
+    from rattle.sound import run_up, track
+
+    if len(options.results) != 1:
+        raise command.CommandError("--rate takes one result, a campaign over shaft.speed_rpm.")
+    campaign = rattle.read_campaign(options.results[0])
+    motions, left_out = run_up.solved_motions(campaign)
+    found = run_up.heard(motions, options.rate, function)
+    scale = options.full_scale or track.full_scale([found], function)
+    inputs = [*options.results, *([options.transfer] if options.transfer else [])]
+    files = [(options.output, lambda path: track.write_wav(path, [found], scale))]
+    outputs.write(files, overwrite=options.overwrite, inputs=inputs)
+    print(table.plain(list(run_up.rows(found, MOST_SPEEDS))))
+    print(f"through {function.words}; a sample of 1 is {scale:.4g} Pa")
+    irregular = sum(not force.repeats for one in motions for force in one.forces.values())
+    for words, said in (
+        (QUASI_STEADY, True),
+        (NOT_CALIBRATED, not function.calibrated),
+        (f"{irregular} motions do not repeat: their last periods are heard again and again.", irregular),
+        (f"Left out, as a pair reached no end: {', '.join(f'{n:g}' for n in left_out)} 1/min.", left_out),
+    ):
+        if said:
+            command.note(words)
     print(options.output)
 
 
@@ -100,6 +135,13 @@ def duration(text: str) -> float:
     return seconds
 
 
+def rate(text: str) -> float:
+    found = command.finite(text)
+    if found == 0.0:
+        raise argparse.ArgumentTypeError("a run-up needs a rate other than 0")
+    return found
+
+
 def parse_options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description="Write what the film forces of gear pairs sound like, through a transfer function from "
@@ -122,6 +164,12 @@ def parse_options() -> argparse.Namespace:
         help="columns frequency [Hz], amplitude [Pa/N], phase [deg] (a generic housing, not calibrated)",
     )
     parser.add_argument("--seconds", type=duration, default=3.0, metavar="S", help="of each variant (3)")
+    parser.add_argument(
+        "--rate",
+        type=rate,
+        metavar="1/MIN/S",
+        help="of a run-up, down where it is below 0; RESULT is then a campaign over shaft.speed_rpm",
+    )
     parser.add_argument(
         "--full-scale",
         type=command.positive_number,
