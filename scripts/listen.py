@@ -57,7 +57,7 @@ def main() -> None:
     print(options.output)
 
 
-def run_up(options: argparse.Namespace, function) -> None:
+def run_up(options: argparse.Namespace, function: Transfer) -> None:
     """A run-up, whose result is a campaign over speed."""
     import rattle
     from rattle.sound import run_up, track

@@ -77,7 +77,11 @@ def solved_motions(campaign: Campaign) -> tuple[list[SpeedMotion], list[float]]:
     for row, force in zip(rows, found, strict=True):
         gear = campaign.gears[int(campaign[GEAR][row]) - 1] if campaign.gears else ""
         by_speed.setdefault(float(campaign[KEY][row]), {})[gear] = force
-    whole = {speed: forces for speed, forces in by_speed.items() if all(forces.values())}
+    whole = {
+        speed: {gear: force for gear, force in forces.items() if force is not None}
+        for speed, forces in by_speed.items()
+        if all(forces.values())
+    }
     if len(whole) < 2:
         raise CommandError(f"{campaign.path}: fewer than two speeds have motions of all pairs.")
     return [SpeedMotion(speed, whole[speed]) for speed in sorted(whole)], sorted(set(by_speed) - set(whole))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -59,13 +60,21 @@ def heard(variants: Sequence[Variant], transfer: Transfer, seconds: float) -> li
     return found
 
 
-def full_scale(found: Sequence[Heard], transfer: Transfer) -> float:
+class WithPressure(Protocol):
+    """What can be heard."""
+
+    @property
+    def pressure(self) -> np.ndarray:
+        """Sound pressure [Pa]."""
+
+
+def full_scale(found: Sequence[WithPressure], transfer: Transfer) -> float:
     """The pressure [Pa] of a sample of 1: 1 Pa if calibrated, else above the largest."""
     largest = max(float(np.abs(one.pressure).max()) for one in found)
     return 1.0 if transfer.calibrated else ROOM * largest
 
 
-def write_wav(path: Path, found: Sequence[Heard], scale: float) -> None:
+def write_wav(path: Path, found: Sequence[WithPressure], scale: float) -> None:
     """All variants with a pause between them: pressure over `scale` [Pa], as floating samples of 32 bits."""
     wavfile = needed("scipy", "scipy.io.wavfile")
     silence = np.zeros(round(PAUSE * RATE))
