@@ -109,6 +109,7 @@ contains
 
       nearest = close_return
       after = 0
+      place = 0
       do i = 1, size(states, 1)
          scale = counts_as(problem, states(i, :))/thinnest_film(problem, states(i, :))
          do period = 1, min(longest_settled, size(states, 1) - i)

@@ -168,7 +168,7 @@ def test_report_shows_what_would_stop_it(reported: Path, pair: PairStudy, tmp_pa
     text = report(tmp_path / "pair.rattle").read_text()
     assert "of another run" in text and words.sentences(pair)[1] not in text
     (tmp_path / "pair.countermeasures.csv").write_text("gear,rank\npair,1\n")
-    assert "no table that countermeasures.py wrote" in report(tmp_path / "pair.rattle").read_text()
+    assert "not a table that countermeasures.py wrote" in report(tmp_path / "pair.rattle").read_text()
 
 
 def test_figures_are_drawn(reported: Path) -> None:

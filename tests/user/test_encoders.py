@@ -262,7 +262,7 @@ def tied(driver: np.ndarray, _: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         (swap, (), "the encoders are swapped"),
         (tied, (), "does not stand out"),
         (lambda a, b: (a, 1.01 * b), (), "check the radii"),
-        (lambda a, b: (a, 0.0 * b), (), "no angle"),
+        (lambda a, b: (a, 0.0 * b), (), "has an angle that changes"),
         (None, ("--part", "0,0.3"), "at least"),
         (None, ("--gear", "5th"), "has no pair '5th'"),
         (None, ("--base-radii", "0.0145,0.0501", "--input", "bench.nml"), "give either --input"),

@@ -167,7 +167,7 @@ def test_the_result_of_another_task_is_refused_with_the_script_that_draws_it(scr
     path = write_motion(tmp_path / "up.rattle", lines=LINES, task="sweep")
     done = call_script(*script.replace("other", str(path)).split(), path)
     assert done.returncode == 2
-    assert "is no motion but the result of task = 'sweep'; 'plot.py sweep' draws it." in done.stderr
+    assert "is not a motion but the result of task = 'sweep'; 'plot.py sweep' draws it." in done.stderr
 
 
 def test_a_result_in_place_of_the_command_is_answered_with_the_command(iso):

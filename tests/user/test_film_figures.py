@@ -150,7 +150,7 @@ def test_a_motion_is_refused(tmp_path):
     path = write_motion(tmp_path / "idle.rattle", lines={1.0: 1.0})
     done = call_script("plot.py", "film", path, "--figures", "4", "--output", tmp_path)
     assert done.returncode == 2
-    assert "is no film but the result of task = 'motion'; 'plot.py motion' draws it." in done.stderr
+    assert "is not a film but the result of task = 'motion'; 'plot.py motion' draws it." in done.stderr
 
 
 @pytest.mark.parametrize("arguments", [("--figures", "6"), ("--film-ratio", "-1"), ("--speed-group", "fast")])
@@ -179,5 +179,5 @@ def test_a_result_of_another_task_is_refused_once(tmp_path):
     done = call_script("plot.py", "film", path, "--output", tmp_path)
     assert done.returncode == 2
     assert done.stderr == (
-        f"plot.py: {path} is no film but the result of task = 'motion'; 'plot.py motion' draws it.\n"
+        f"plot.py: {path} is not a film but the result of task = 'motion'; 'plot.py motion' draws it.\n"
     )

@@ -123,7 +123,7 @@ def test_scenes_without_a_place_are_refused(tmp_path):
     )
     for done, sentence in (
         (alone, "alone.rattle, which would, does not exist."),
-        (film_task, "is no motion but the result of task = 'film'; 'plot.py film' draws it."),
+        (film_task, "is not a motion but the result of task = 'film'; 'plot.py film' draws it."),
         (bare, "has no number as contact."),
         (many, "The map shows 7 scenes at most; 8 were given."),
     ):

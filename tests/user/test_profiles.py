@@ -132,7 +132,7 @@ def test_phases_of_the_last_period(run, tmp_path: Path) -> None:
         (
             ".true.,",
             ".true., profile_phases = 0.5, profile_count = 4,",
-            r":9: &output profile_count: it cannot",
+            r":9: &output profile_count: it excludes output.profile_phases",
         ),
         (
             "profiles = .true.,",

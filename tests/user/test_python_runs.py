@@ -282,7 +282,7 @@ def test_values_become_namelist_text(value, text):
 
 
 def test_what_no_input_can_hold_is_refused():
-    with pytest.raises(TypeError, match="nothing that an input can hold"):
+    with pytest.raises(TypeError, match="not a value that an input can have"):
         literal(None)
 
 

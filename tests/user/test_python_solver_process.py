@@ -87,7 +87,7 @@ def test_what_would_become_another_value_is_refused(value, temporary):
         lambda: rattle.run(SCENE, set={"load.mass": value}),
         lambda: rattle.run({**SCENE, "load": {"mass": value}}),
     ):
-        with pytest.raises(TypeError, match="nothing that an input can hold"):
+        with pytest.raises(TypeError, match="not a value that an input can have"):
             call()
     assert not list(temporary.iterdir())
 

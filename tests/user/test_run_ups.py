@@ -359,7 +359,7 @@ def test_what_is_no_run_up_is_refused(change: str, options: tuple, words: str, t
 def test_other_files_are_no_waterfall(text: str, tmp_path: Path) -> None:
     (tmp_path / "w.csv").write_text(text)
     code, _, complained = called_here("plot.py", "waterfall", "w.csv", cwd=tmp_path)
-    assert code == 2 and "no waterfall" in complained and "Traceback" not in complained
+    assert code == 2 and "not a waterfall" in complained and "Traceback" not in complained
 
 
 def test_too_few_samples_make_no_fit() -> None:

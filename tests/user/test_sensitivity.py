@@ -246,7 +246,7 @@ def test_what_is_no_design_is_refused(run, tmp_path: Path) -> None:
     (tmp_path / "pair.design.csv").write_text("\n".join([*rows[:2], rows[3], rows[2], *rows[4:], ""]))
     assert run("--overwrite", "pair_design.nml", cwd=tmp_path).returncode == 0
     for words, arguments in (
-        ("no campaign over a design", (result,)),
+        ("not a campaign over a design", (result,)),
         ("no numbers of 'rattle_class'", (result, "--quantities", "rattle_class")),
         ("no numbers of 'crest_factor'", (result, "--quantities", "crest_factor")),
         ("exists; --overwrite replaces it", ("design", "pair.nml")),
