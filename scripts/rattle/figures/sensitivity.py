@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -23,27 +24,10 @@ KINDS = (("alone", "first", style.RUN_COLOURS[0]), ("with all others", "total", 
 
 def draw(campaign: Campaign, studies: Sequence[Study]) -> Figure:
     """A row of panels for each pair, a panel for each quantity, a pair of bars for each key."""
-    names = list(dict.fromkeys(found.quantity for study in studies for found in study.found))
-    keys = studies[0].keys
-    figure = Figure(figsize=(style.WIDTH, MARGIN + len(studies) * (PANEL + BAR * len(keys))))
-    panels = figure.subplots(len(studies), max(len(names), 1), squeeze=False, sharex=True, sharey=True)
-    for row, study in zip(panels, studies, strict=True):
-        by_name = {found.quantity: found for found in study.found}
-        for axes, name in zip(row, names, strict=True):
-            if name in by_name:
-                _bars(axes, by_name[name])
-            else:
-                axes.text(
-                    0.5, 0.5, "the same\nat all points", ha="center", va="center", transform=axes.transAxes
-                )
-            if study is studies[0]:
-                axes.set_title(capital(textwrap.fill(short_name(name), TITLE_LETTERS // len(names))))
-        row[0].set_yticks(range(len(keys)), [short_name(key) for key in keys])
-        row[0].set_ylim(len(keys) - 0.5, -0.5)
-        row[0].set_ylabel(_label(study))
+    figure, panels = _panels(studies, [study.found for study in studies], _bars, BAR)
     panels[0, 0].set_xlim(0.0, 1.1)
     panels[-1, 0].set_xticks([0.0, 0.5, 1.0])
-    panels[-1, len(names) // 2].set_xlabel("Share of the variance [-]")
+    panels[-1, panels.shape[1] // 2].set_xlabel("Share of the variance [-]")
     style.legend_below(figure, panels[0, 0], 2)
     figure.suptitle(f"{campaign.name}: share of the variance that each key explains", fontsize=9.5)
     return figure
@@ -51,15 +35,30 @@ def draw(campaign: Campaign, studies: Sequence[Study]) -> Figure:
 
 def draw_directions(campaign: Campaign, studies: Sequence[Study]) -> Figure:
     """A row of panels for each pair, a panel for each quantity, a signed bar for each key."""
-    names = list(dict.fromkeys(found.quantity for study in studies for found in study.directions))
+    figure, panels = _panels(studies, [study.directions for study in studies], _signed_bars, 0.7 * BAR)
+    panels[0, 0].set_xlim(-1.1, 1.1)
+    panels[-1, 0].set_xticks([-1.0, 0.0, 1.0])
+    figure.supxlabel("Rank correlation with the key [-]: right, it grows with it", fontsize=9)
+    figure.suptitle(f"{campaign.name}: direction of each effect", fontsize=9.5)
+    return figure
+
+
+def _panels(
+    studies: Sequence[Study],
+    found: Sequence[Sequence[Any]],
+    draw_bars: Callable[[Axes, Any], None],
+    bar: float,
+) -> tuple[Figure, np.ndarray]:
+    """The panels with what was found of each pair, a row of `bar` inches for each key."""
+    names = list(dict.fromkeys(one.quantity for several in found for one in several))
     keys = studies[0].keys
-    figure = Figure(figsize=(style.WIDTH, MARGIN + len(studies) * (PANEL + 0.7 * BAR * len(keys))))
+    figure = Figure(figsize=(style.WIDTH, MARGIN + len(studies) * (PANEL + bar * len(keys))))
     panels = figure.subplots(len(studies), max(len(names), 1), squeeze=False, sharex=True, sharey=True)
-    for row, study in zip(panels, studies, strict=True):
-        by_name = {found.quantity: found for found in study.directions}
+    for row, study, several in zip(panels, studies, found, strict=True):
+        by_name = {one.quantity: one for one in several}
         for axes, name in zip(row, names, strict=True):
             if name in by_name:
-                _signed_bars(axes, by_name[name])
+                draw_bars(axes, by_name[name])
             else:
                 axes.text(
                     0.5, 0.5, "the same\nat all points", ha="center", va="center", transform=axes.transAxes
@@ -69,11 +68,7 @@ def draw_directions(campaign: Campaign, studies: Sequence[Study]) -> Figure:
         row[0].set_yticks(range(len(keys)), [short_name(key) for key in keys])
         row[0].set_ylim(len(keys) - 0.5, -0.5)
         row[0].set_ylabel(_label(study))
-    panels[0, 0].set_xlim(-1.1, 1.1)
-    panels[-1, 0].set_xticks([-1.0, 0.0, 1.0])
-    figure.supxlabel("Rank correlation with the key [-]: right, it grows with it", fontsize=9)
-    figure.suptitle(f"{campaign.name}: direction of each effect", fontsize=9.5)
-    return figure
+    return figure, panels
 
 
 def _signed_bars(axes: Axes, found: Direction) -> None:
