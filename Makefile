@@ -265,12 +265,11 @@ bench-changed: bench-build
 
 # What the program says of the trends that test stands report: table and picture of tests/trends.
 trends: $(BUILD)/rattle $(BUILD)/kernels/built
-	@$(PYTHON) tests/trends/run_trends.py
+	@$(PYTHON) tests/page_tables.py tests/trends/README.md
 
 # What was measured beside what the program computes: tables and pictures of tests/measured.
 measured: $(BUILD)/rattle $(BUILD)/kernels/built
-	@$(PYTHON) tests/measured/restitution/run_restitution.py
-	@$(PYTHON) tests/measured/onset/run_onset.py
+	@$(PYTHON) tests/page_tables.py tests/measured/README.md
 
 # Do two builds write the same results? Of the one: make hashes; of the other: make hashes AGAINST=FILE. Two minutes on two cores.
 hashes: $(BUILD)/rattle $(PYTHON_ENV)/installed
@@ -281,7 +280,7 @@ bench-build: $(PYTHON_ENV)/installed
 	@sh $(PEERS)/setup.sh $(PEER_ENV)
 
 # Random scenes: what their summaries and rows of campaigns tell, against a solution that resolves impacts, and every engine
-# against a tighter solution. About an hour and a half on two cores; tests/stress/README.md says what the columns mean.
+# against a tighter solution. About an hour and a half on two cores; tests/stress/SUMMARIES.md says what the columns mean.
 SCENES := 100000
 stress: $(BUILD)/stress_summaries $(BUILD)/stress_scenes $(BUILD)/stress_motions $(BUILD)/lane_independence
 	@$(BUILD)/stress_summaries --scenes $(SCENES) --failures $(BUILD)/stress_failures.txt

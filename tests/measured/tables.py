@@ -1,14 +1,11 @@
-"""Tables of the entries: as CSV beside each, and in README.md of this folder."""
+"""Tables of the entries as CSV beside each."""
 
 from __future__ import annotations
 
 import csv
 import math
-import re
 from collections.abc import Sequence
 from pathlib import Path
-
-PAGE = Path(__file__).resolve().parent / "README.md"
 
 Value = str | int | float
 
@@ -30,12 +27,3 @@ def write_csv(path: Path, head: Sequence[str], rows: Sequence[Sequence[Value]]) 
 def read_csv(path: Path) -> list[dict[str, str]]:
     with path.open(newline="") as file:
         return list(csv.DictReader(file))
-
-
-def replace_table(name: str, lines: Sequence[str]) -> None:
-    """Replace the table of a name in README.md."""
-    begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
-    table = "\n".join([begin, *lines, end])
-    page = re.sub(f"{begin}.*{end}", lambda _: table, PAGE.read_text(), flags=re.DOTALL)
-    PAGE.write_text(page)
-    print("\n".join(lines))

@@ -2,7 +2,7 @@
 
     python tests/measured/restitution/run_restitution.py
 
-Writes table.csv and restitution.png beside this file, and the tables of ../README.md.
+Writes table.csv and restitution.png beside this file, and prints the tables of ../README.md.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from scipy.optimize import brentq
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "scripts"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from tables import Value, replace_table, write_csv
+from tables import Value, write_csv
 
 import rattle
 from rattle.figures import style
@@ -220,12 +220,12 @@ def main() -> int:
         "cylinder | critical St, derived | rebound from, computed | mass on spring | 0.5 at St, over derived "
         "| nodes off closure | line, off by"
     )
-    replace_table("restitution", [f"| {head} |", "|---" * 7 + "|", *lines])
+    print("\n".join([f"| {head} |", "|---" * 7 + "|", *lines, ""]))
     rigid = ["| approach ends at | rigid cylinder | rigid sphere |", "|---|---|---|"]
     for film in ROUGHNESS:
         numbers = f"{rigid_critical(film):.0f} | {rigid_critical_of_sphere(film):.1f}"
         rigid.append(f"| {1e6 * film:g} um | {numbers} |")
-    replace_table("rigid", rigid)
+    print("\n".join(rigid))
     write_csv(HERE / "table.csv", HEAD, table)
     draw(found)
     return 0
