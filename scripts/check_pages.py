@@ -135,7 +135,7 @@ def long_parts(text: str, lines: int, explained: str) -> tuple[Count, list[str]]
 
 
 def line(page: str, count: Count) -> str:
-    return f"{page:32}" + "".join(f"{number:>{width}}" for number, width in zip(count, WIDTHS, strict=True))
+    return f"{page:40}" + "".join(f"{number:>{width}}" for number, width in zip(count, WIDTHS, strict=True))
 
 
 def main() -> int:
@@ -144,7 +144,7 @@ def main() -> int:
     pages = named or [page for page in listed.stdout.split() if page != "CHANGELOG.md"]
     total = Count()
     explained = first_cells("input/GLOSSARY.md") + "\n" + first_cells("fsrc/THEORY.md")
-    print(f"{'page':32} sentences  long  over 40  passive  paragraphs  long  idioms  undefined")
+    print(f"{'page':40} sentences  long  over 40  passive  paragraphs  long  idioms  undefined")
     for page in pages:
         lines = README_LINES if page == "README.md" else LINES
         count, places = long_parts(Path(page).read_text(), lines, explained)

@@ -36,6 +36,7 @@ check 'format of Fortran and Python' formatted
 check 'style of Python' "$tools/ruff" check scripts tests
 check 'types of Python' "$tools/mypy" --cache-dir "$build/lint/mypy"
 check 'links of pages' "$tools/python" scripts/check_links.py
+check 'pages of studies: parts, tables' "$tools/python" scripts/check_studies.py
 check 'pages: sentences, paragraphs, idioms, terms' "$tools/python" scripts/check_pages.py
 check 'messages: idioms' "$tools/python" scripts/list_messages.py --idioms
 check 'page of all keys' sh -c "sed '1,/^<!-- tables/d; /^<!-- end of tables/,\$d' input/KEYS.md > '$build/lint/tables.md'

@@ -37,6 +37,14 @@ html_static_path = ["wide.css"]
 html_css_files = ["wide.css"]
 html_copy_source = False
 
+# The pages beside the first one of a folder.
+BESIDE = """
+```{toctree}
+:hidden:
+:glob:
+*
+```
+"""
 CONTENTS = """
 ```{toctree}
 :hidden:
@@ -75,9 +83,11 @@ CHANGELOG
 
 
 def add_contents(_: Sphinx, page: str, source: list[str]) -> None:
-    """Give the first page the contents that the sidebar shows, and the page of the program its modules."""
+    """Give the first page the contents that the sidebar shows, studies their pages, Fortran its modules."""
     if page == root_doc:
         source[0] += CONTENTS
+    elif page in ("tests/benchmarks/README", "tests/stress/README"):
+        source[0] += BESIDE
     elif page == "scripts/doc/fortran":
         source[0] += "".join(modules())
 

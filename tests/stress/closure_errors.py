@@ -119,7 +119,7 @@ def compare(number: int, program: Path) -> Row | str:
 def table_of(rows: list[Row]) -> list[str]:
     """Median and 99 % of the errors, by the largest load and the law of viscosity."""
     lines = [
-        "| M | law | scenes | peak, median | 99 % | film, median | 99 % |",
+        "| M | viscosity | scenes | peak, median | 99 % | film, median | 99 % |",
         "|---|---|---:|---:|---:|---:|---:|",
     ]
     for low, high in CLASSES:

@@ -57,7 +57,7 @@ def main() -> None:
     options = parser.parse_args()
     numbers = range(options.first, options.first + options.scenes)
     references = {number: solution_of(number, REFERENCE, options.program)[0] for number in numbers}
-    print("| accuracy | peak, median | largest | film, median | largest | misses | seconds, median |")
+    print("| accuracy | peak, median | largest | film, median | largest | beyond a goal | seconds, median |")
     print("|---|---:|---:|---:|---:|---|---:|")
     for accuracy in options.accuracies:
         print(row_of(accuracy, numbers, references, options.program))

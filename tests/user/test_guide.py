@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
+REPOSITORY = Path(__file__).resolve().parents[2]
 PAGES = [
     "README.md",
     *(f"input/{name}.md" for name in ("CAMPAIGNS", "PAPER", "RUNNING", "VERIFICATION")),
-    *(f"tests/{name}/README.md" for name in ("benchmarks", "stress", "trends")),
+    *sorted(str(path.relative_to(REPOSITORY)) for path in REPOSITORY.glob("tests/*/*.md")),
 ]
-REPOSITORY = Path(__file__).resolve().parents[2]
 BLOCK = re.compile(r"(?:^|(?<=\n\n))((?: {4}[^\n]*\n?)+)", re.MULTILINE)
 WORDS = re.compile(r"`((?:build/rattle|\S*python) [^`]+)`")
 
