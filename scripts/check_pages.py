@@ -48,7 +48,7 @@ NAMES = re.compile(r"AMD|EPYC|REXS|AVX|BSD|LLVM|ISO|DIN|IEC|IIIC|TR|SI|MB|README
 GENERATED = re.compile(r"^<!-- (?!end)[^\n]*-->\n.*?^<!-- end[^\n]*-->$", re.MULTILINE | re.DOTALL)
 FRONT_MATTER = re.compile(r"\A---\n.*?^---$", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"^```.*?^```$|(?:^|(?<=\n\n))(?: {4}[^\n]*\n+)+", re.MULTILINE | re.DOTALL)
-INLINE = re.compile(r"`[^`]+`")
+INLINE = re.compile(r"`[^`]+`|\$[^$\n]+\$")
 LINK = re.compile(r"!?\[([^]]*)\]\([^)]*\)")
 # An item of a list, a quotation or a caption begins a paragraph of its own.
 BREAK = re.compile(r"\n\s*\n|\n(?=\s*(?:[-*]|\d+\.) )")

@@ -18,8 +18,11 @@ release = (ROOT / "fsrc" / "VERSION").read_text().strip()
 
 root_doc = "README"
 exclude_patterns = [".*", "build", "results", "fsrc/ford.md"]
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx-mathjax-offline"]
 myst_heading_anchors = 4
+# Equations as GitHub has them: $z'$ in a line, ```math blocks.
+myst_enable_extensions = ["dollarmath"]
+myst_fence_as_directive = ["math"]
 # Most blocks of code are commands, namelists, equations or output, and name no language; z'' stays z''.
 highlight_language = "none"
 smartquotes = False

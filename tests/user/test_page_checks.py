@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -24,6 +25,7 @@ EXPLAINED = "u*, v_n\nCSV"
         ),
         ("The film is solved and the tooth is moved.", {"passive_chains": 1}),
         ("The film is solved. The tooth is moved.", {}),
+        (f"The ${' '.join(['w*'] * 26)}$ end.", {}),
         ("\n\n".join(["", *["The film is short. " * 40]]), {"long_paragraphs": 1}),
         ("The log tells that nobody came.", {"idioms": 2}),
         (
@@ -48,3 +50,19 @@ def test_a_message_is_joined_over_its_lines(tmp_path: Path) -> None:
         "! a comment 'of no message'\ncall add('the value '//text(a)// &\n   ' is not a number')\n"
     )
     assert [text for _, text in list_messages.of_fortran(source) if text] == ["the value ... is not a number"]
+
+
+def test_equations_of_the_theory_are_in_the_sections_named(repository: Path) -> None:
+    """Every number of the table of equations is a text of a section that its row links."""
+    page = (repository / "fsrc" / "THEORY.md").read_text()
+    sections = dict(re.findall(r"^## (\d+)\. (.*?)(?=^## |\Z)", page, re.MULTILINE | re.DOTALL))
+    rows = re.findall(r"^\| (\([^|]*) \| [^|]* \| ([^|]*) \|", page.partition("## Symbols")[0], re.MULTILINE)
+    named = [
+        (number, re.findall(r"\[(\d+)\]", links))
+        for numbers, links in rows
+        for number in re.findall(r"\(\d+\)", numbers)
+    ]
+    assert len(named) >= 20
+    assert not [
+        number for number, links in named if not any(number in sections[section] for section in links)
+    ]
