@@ -521,7 +521,7 @@ contains
    end subroutine thicken_by_roelands
 
    !> Share by which the largest load of a motion may be off that in nodes: 99 of 100 random loose gears are nearer
-   !> (tests/stress/README.md).
+   !> (tests/stress/CLOSURE.md).
    elemental real(dp) function error_of_loads(closure, load)
       type(closure_t), intent(in) :: closure
       !> M [-]

@@ -364,7 +364,8 @@ contains
          if (has_window(ending)) then
             motion = motion_of_window(problem, scene%request%samples_per_period, place, group)
             if (trial%period > 0) call note_return
-            if (.not. trial%settled .and. motion%period > 0 .and. class == class_subharmonic) then
+            if (.not. trial%settled .and. motion%period > 0 .and. class == class_subharmonic .and. &
+                group%repeat_after(place) > 1) then
                trial%is_next_to_one = motion%rms_is_rough
                trial%settled = .not. trial%is_next_to_one
             end if

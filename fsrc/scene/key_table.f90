@@ -346,7 +346,7 @@ module key_table
       key_t('spectrum', 'quiet_limit', real_kind, '-', '0.35', positive, '', of_motions, &
             'Below this harmonic distortion the motion is quiet.'), &
       key_t('spectrum', 'irregular_limit', real_kind, '-', '0.01', fraction, '', of_motions, &
-            'Above this share of power off the harmonics the motion is irregular, or subharmonic if it is known to repeat.'), &
+            'Above this share of power off the harmonics of the force the motion is irregular, or subharmonic if it repeats.'), &
       key_t('spectrum', 'impact_limit', real_kind, '-', '1.5', range_t(lower=1.0_dp), '', of_motions, &
             'A largest load of a film above this multiple of the largest force |F + m g| is an impact.'), &
       key_t('spectrum', 'verify', logical_kind, '', '.true.', any_number, '', verified, &

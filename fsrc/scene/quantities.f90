@@ -310,7 +310,8 @@ module quantities
          needs_spectrum, 'summary sweep campaign', &
          'Whether harmonics beyond the highest that is resolved may add to harmonic_distortion.'), &
       quantity_t(quantity_irregular_fraction, 'irregular_fraction', '-', a_number, part_spectrum, needs_spectrum, &
-         'summary sweep campaign', 'Share of the power that is off the harmonics.'), &
+         'summary sweep campaign', &
+         'Share of the power off the harmonics of the force, those of its orders from a thousandth of the largest on.'), &
       quantity_t(quantity_irregular_fraction_is_bound, 'irregular_fraction_is_bound', '-', a_flag, part_spectrum, needs_spectrum, &
          'summary sweep campaign', 'Whether power beyond the highest harmonic that is resolved may add to irregular_fraction.'), &
       quantity_t(quantity_sampling_sufficient, 'sampling_sufficient', '-', a_flag, part_spectrum, needs_spectrum, &

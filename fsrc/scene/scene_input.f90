@@ -172,7 +172,7 @@ contains
       end if
    end subroutine choose_defaults
 
-   !> Accuracy of films in nodes unless given, and as many nodes as it needs unless given (tests/stress/README.md).
+   !> Accuracy of films in nodes unless given, and as many nodes as it needs unless given (tests/stress/NODAL_ACCURACY.md).
    subroutine choose_nodes(self)
       class(scene_input_t), intent(inout) :: self
       character(*), parameter :: names(*) = [character(3) :: '32', '48', '64', '128']

@@ -3,6 +3,7 @@ module scene_types
    use, intrinsic :: iso_c_binding, only: c_double
    use input_key, only: name_limit, path_limit
    use kinds, only: dp
+   use whole_numbers, only: common_divisor
    use word_list, only: word_t
    implicit none(type, external)
    private
@@ -319,6 +320,8 @@ module scene_types
       logical :: forced(highest_order) = [.true., spread(.false., 1, highest_order - 1)]
       !> Order with the largest force, whose multiples the harmonics are counted by
       integer :: dominant_order = 1
+      !> Greatest common divisor of orders that are no mere trace: the force repeats as many times in its period
+      integer :: common_order = 1
       !> A harmonic above this share of the largest forced one counts
       real(dp) :: harmonic_threshold = 0.01_dp
       !> From this many harmonics on: idle
@@ -661,17 +664,25 @@ contains
    end subroutine set_number_of_gear
 
    !> Note at which orders harmonics are forced, those of at least a hundredth of the largest amplitude of the force, and which is
-   !> dominant, that of the largest, the lowest of equal ones.
+   !> dominant, that of the largest, the lowest of equal ones. Orders from a thousandth on make the period after which the force
+   !> repeats: what smaller ones make of a motion that repeats with the others stays below a hundredth of its power.
    pure subroutine note_orders(orders, amplitudes, choice)
       integer, intent(in) :: orders(:)
       !> Of each order [N]
       real(dp), intent(in) :: amplitudes(:)
       type(spectrum_choice_t), intent(inout) :: choice
-      real(dp), parameter :: least_share = 0.01_dp, equal_share = 1.0_dp - 1.0e-9_dp
+      real(dp), parameter :: equal_share = 1.0_dp - 1.0e-9_dp, least_share = 0.01_dp*equal_share, &
+                             trace = 0.001_dp*equal_share
+      integer :: i
 
       choice%forced = .false.
       choice%forced(pack(orders, orders <= highest_order .and. amplitudes >= least_share*maxval(amplitudes))) = .true.
       choice%dominant_order = minval(orders, mask=amplitudes >= equal_share*maxval(amplitudes))
+      choice%common_order = 0
+      do i = 1, size(orders)
+         if (amplitudes(i) >= trace*maxval(amplitudes)) choice%common_order = common_divisor(orders(i), choice%common_order)
+      end do
+      choice%common_order = max(1, choice%common_order)
    end subroutine note_orders
 
    !> How the drag torque of a pair is known.

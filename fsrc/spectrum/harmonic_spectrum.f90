@@ -2,6 +2,7 @@
 module harmonic_spectrum
    use fourier, only: amplitude_spectrum
    use kinds, only: dp
+   use scene_types, only: spectrum_choice_t
    use value_range, only: binary_unit
    implicit none(type, external)
    private
@@ -30,7 +31,9 @@ module harmonic_spectrum
       !> Root of the sum of squares of all harmonics that are not forced, over that of the forced ones, and whether it may be larger
       real(dp) :: harmonic_distortion = 0.0_dp
       logical :: distortion_is_bound = .false.
-      !> Share of the power off the harmonics: 1 - sum a_n^2/(sum over all bins but the mean), and whether it may be larger
+      !> Share of the power that varies from period to period: 1 - sum a_n^2/(sum over all bins but the mean)
+      real(dp) :: varying_fraction = 0.0_dp
+      !> The same, with harmonics that are no multiples of the common order of the force, and whether it may be larger
       real(dp) :: irregular_fraction = 0.0_dp
       logical :: irregular_is_bound = .false.
       !> Whether the samples a period, or the integrals over the steps, are enough for every harmonic listed
@@ -49,16 +52,13 @@ module harmonic_spectrum
 contains
 
    !> Harmonics of a window of acceleration samples.
-   subroutine find_harmonics(acceleration, periods, forced, dominant, harmonic_threshold, noise_floor, spectrum)
+   subroutine find_harmonics(acceleration, periods, choice, noise_floor, spectrum)
       !> Samples of whole periods, the same count in each [m/s2]
       real(dp), intent(in) :: acceleration(:)
       !> Periods in the window, a divisor of the count of samples
       integer, intent(in) :: periods
-      !> Orders of the force, and that of its largest
-      logical, intent(in) :: forced(:)
-      integer, intent(in) :: dominant
-      !> A harmonic above this share of the largest forced one counts [-]
-      real(dp), intent(in) :: harmonic_threshold
+      !> Orders of the force, and the threshold above which a harmonic counts
+      type(spectrum_choice_t), intent(in) :: choice
       !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
       !> The harmonics
@@ -68,7 +68,7 @@ contains
       call amplitude_spectrum(acceleration, amplitudes)
       ! A harmonic stands for two bins of the transform; that at half the samples is one bin, whose square counts twice.
       call harmonics_of_bins(amplitudes, periods, (size(acceleration)/periods - 1)/2, mod(size(acceleration), 2) == 0, &
-                         forced, dominant, harmonic_threshold, noise_floor, spectrum)
+                             choice, noise_floor, spectrum)
       if (.not. spectrum%sampling_sufficient) spectrum%spectral_reach = 0.0_dp
       spectrum%count_is_bound = .not. spectrum%sampling_sufficient
       spectrum%distortion_is_bound = .not. spectrum%sampling_sufficient
@@ -77,8 +77,7 @@ contains
 
    !> Harmonics of a window from harmonics found by integrals over its steps, and its power: what lies beyond the highest harmonic
    !> is power too.
-   pure subroutine find_harmonics_by_integrals(harmonics, harmonic_power, known_beyond, power, forced, dominant, &
-                                           harmonic_threshold, noise_floor, spectrum)
+   pure subroutine find_harmonics_by_integrals(harmonics, harmonic_power, known_beyond, power, choice, noise_floor, spectrum)
       !> a_1, a_2, ... [m/s2]
       real(dp), intent(in) :: harmonics(:)
       !> Power that belongs to harmonics, in units of `power`
@@ -88,11 +87,8 @@ contains
       logical, intent(in) :: known_beyond
       !> Twice the mean square of z'' about its mean: the sum of the squares of all harmonics [m2/s4]
       real(dp), intent(in) :: power
-      !> Orders of the force, and that of its largest
-      logical, intent(in) :: forced(:)
-      integer, intent(in) :: dominant
-      !> A harmonic above this share of the largest forced one counts [-]
-      real(dp), intent(in) :: harmonic_threshold
+      !> Orders of the force, and the threshold above which a harmonic counts
+      type(spectrum_choice_t), intent(in) :: choice
       !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
       !> The harmonics
@@ -100,14 +96,15 @@ contains
       real(dp) :: unforced(size(harmonics)), tail, unforced_amplitude
 
       allocate (spectrum%harmonics, source=harmonics)
-      call hold_against_force(harmonics, forced, spectrum%largest_forced, spectrum%forced_amplitude, unforced)
+      call hold_against_force(harmonics, choice%forced, spectrum%largest_forced, spectrum%forced_amplitude, unforced)
       spectrum%resolution_error = integral_error*maxval(harmonics)
       spectrum%moving = sqrt(max(0.0_dp, power)) > noise_floor
       if (.not. spectrum%moving) return
       spectrum%distortion_is_bound = .not. known_beyond
-      spectrum%harmonic_count = harmonics_above(harmonic_threshold, harmonics(spectrum%largest_forced), unforced, dominant)
+      spectrum%harmonic_count = harmonics_above(harmonics(spectrum%largest_forced), unforced, choice)
       tail = maxval(harmonics((3*size(harmonics))/4 + 1:))
-      spectrum%count_is_bound = tail > max(noise_floor, sampling_tolerance*harmonic_threshold*harmonics(spectrum%largest_forced))
+      spectrum%count_is_bound = tail > max(noise_floor, sampling_tolerance* &
+                                           choice%harmonic_threshold*harmonics(spectrum%largest_forced))
       spectrum%harmonic_distortion = huge(1.0_dp)
       associate (forced_amplitude => spectrum%forced_amplitude)
          if (forced_amplitude > noise_floor) then
@@ -118,12 +115,11 @@ contains
       end associate
       unforced_amplitude = max(norm2(unforced), sqrt(max(0.0_dp, harmonic_power - spectrum%forced_amplitude**2)))
       if (known_beyond .and. unforced_amplitude > noise_floor) &
-         spectrum%spectral_reach = reach_of(unforced, dominant, unforced_amplitude)
+         spectrum%spectral_reach = reach_of(unforced, choice%dominant_order, unforced_amplitude)
    end subroutine find_harmonics_by_integrals
 
    !> Harmonics of a window from the amplitudes of its bins.
-   subroutine harmonics_of_bins(amplitudes, periods, resolved, last_is_half, forced, dominant, harmonic_threshold, &
-                                noise_floor, spectrum)
+   subroutine harmonics_of_bins(amplitudes, periods, resolved, last_is_half, choice, noise_floor, spectrum)
       !> Amplitudes from 0 on; on return in another unit
       real(dp), allocatable, intent(inout) :: amplitudes(:)
       !> Periods in the window
@@ -132,12 +128,10 @@ contains
       integer, intent(in) :: resolved
       !> Whether the last bin stands for one bin of the transform alone
       logical, intent(in) :: last_is_half
-      logical, intent(in) :: forced(:)
-      integer, intent(in) :: dominant
-      real(dp), intent(in) :: harmonic_threshold
+      type(spectrum_choice_t), intent(in) :: choice
       real(dp), intent(in) :: noise_floor
       type(harmonic_spectrum_t), intent(out) :: spectrum
-      real(dp) :: unforced(resolved), unit, power, harmonic_power, least
+      real(dp) :: unforced(resolved), unit, power, least
       integer :: highest
 
       highest = ubound(amplitudes, 1)
@@ -149,21 +143,21 @@ contains
       spectrum%harmonics(:) = amplitudes(periods:resolved*periods:periods)
       power = sum(amplitudes(1:)**2)
       if (last_is_half) power = power + amplitudes(highest)**2
-      harmonic_power = sum(spectrum%harmonics**2)
       spectrum%moving = sqrt(power) > least
-      call hold_against_force(spectrum%harmonics, forced, spectrum%largest_forced, spectrum%forced_amplitude, unforced)
+      call hold_against_force(spectrum%harmonics, choice%forced, spectrum%largest_forced, spectrum%forced_amplitude, unforced)
       if (spectrum%moving) then
-         spectrum%irregular_fraction = max(0.0_dp, 1.0_dp - harmonic_power/power)
-         spectrum%harmonic_count = harmonics_above(harmonic_threshold, spectrum%harmonics(spectrum%largest_forced), unforced, &
-                                                   dominant)
-         if (norm2(unforced) > least) spectrum%spectral_reach = reach_of(unforced, dominant, norm2(unforced))
+         spectrum%varying_fraction = max(0.0_dp, 1.0_dp - sum(spectrum%harmonics**2)/power)
+         spectrum%irregular_fraction = max(0.0_dp, 1.0_dp - &
+                                           sum(spectrum%harmonics(choice%common_order::choice%common_order)**2)/power)
+         spectrum%harmonic_count = harmonics_above(spectrum%harmonics(spectrum%largest_forced), unforced, choice)
+         if (norm2(unforced) > least) spectrum%spectral_reach = reach_of(unforced, choice%dominant_order, norm2(unforced))
          spectrum%harmonic_distortion = huge(1.0_dp)
          if (spectrum%forced_amplitude > least) &
             spectrum%harmonic_distortion = sqrt(unforced(1)**2 + sum(unforced(2:)**2))/spectrum%forced_amplitude
          ! Samples fold what lies beyond the highest resolved frequencies back upon the harmonics.
          spectrum%resolution_error = maxval(amplitudes((3*highest)/4 + 1:))
          spectrum%sampling_sufficient = spectrum%resolution_error <= &
-                                     max(least, sampling_tolerance*harmonic_threshold*spectrum%harmonics(spectrum%largest_forced))
+                                max(least, sampling_tolerance*choice%harmonic_threshold*spectrum%harmonics(spectrum%largest_forced))
          spectrum%resolution_error = spectrum%resolution_error*unit
       end if
       spectrum%harmonics(:) = spectrum%harmonics*unit
@@ -195,15 +189,15 @@ contains
 
    !> Multiples of the dominant order with harmonics above a share of the largest forced one: that one, and those about which
    !> harmonics are not forced. Of a force that is one cosine every harmonic is such a multiple.
-   pure integer function harmonics_above(share, largest_forced, unforced, dominant)
-      real(dp), intent(in) :: share
+   pure integer function harmonics_above(largest_forced, unforced, choice)
       !> [m/s2]
       real(dp), intent(in) :: largest_forced
       real(dp), intent(in) :: unforced(:)
-      integer, intent(in) :: dominant
+      type(spectrum_choice_t), intent(in) :: choice
 
-      associate (gathered => gather_about_multiples(unforced, dominant))
-         harmonics_above = merge(1, 0, largest_forced > share*largest_forced) + count(gathered(2:) > share*largest_forced)
+      associate (gathered => gather_about_multiples(unforced, choice%dominant_order), &
+                 least => choice%harmonic_threshold*largest_forced)
+         harmonics_above = merge(1, 0, largest_forced > least) + count(gathered(2:) > least)
       end associate
    end function harmonics_above
 

@@ -14,6 +14,7 @@ module force_signal
    use kinds, only: dp, int64
    use problem, only: problem_t
    use text, only: counted, integer_text
+   use whole_numbers, only: common_divisor
    use word_list, only: joined_words, word_t
    implicit none(type, external)
    private
@@ -164,20 +165,5 @@ contains
       count = min(size(one%lines)/step, size(other%lines)/other_step)
       mean = 0.5_dp*sum(real(one%lines(step:count*step:step)*conjg(other%lines(other_step:count*other_step:other_step)), dp))
    end function mean_of_product
-
-   !> Greatest common divisor of two positive numbers.
-   pure integer function common_divisor(one, other) result(divisor)
-      integer, intent(in) :: one
-      integer, intent(in) :: other
-      integer :: rest, remainder
-
-      divisor = one
-      rest = other
-      do while (rest > 0)
-         remainder = modulo(divisor, rest)
-         divisor = rest
-         rest = remainder
-      end do
-   end function common_divisor
 
 end module force_signal

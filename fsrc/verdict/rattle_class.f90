@@ -9,7 +9,8 @@ module rattle_class
    implicit none(type, external)
    private
 
-   !> A motion off its harmonics is irregular so far; it becomes subharmonic or irregular as soon as more is known of it.
+   !> A motion off the harmonics of its force is subharmonic if it repeats after a period all the same. Else it is irregular so
+   !> far; it becomes subharmonic or irregular as soon as more is known of it.
    integer, parameter, public :: class_quiet = 1, class_creep = 2, class_idle = 3, class_irregular = 4, class_subharmonic = 5, &
                          class_irregular_so_far = 6
 
@@ -41,14 +42,13 @@ contains
       real(dp), intent(in) :: noise_floor
       type(rattle_verdict_t), intent(out) :: verdict
 
-      call find_harmonics(acceleration, choice%periods, choice%forced, choice%dominant_order, choice%harmonic_threshold, &
-                          noise_floor, verdict%spectrum)
+      call find_harmonics(acceleration, choice%periods, choice, noise_floor, verdict%spectrum)
       verdict%class = class_of(verdict%spectrum, choice)
       if (verdict%spectrum%moving) verdict%reversals_per_period = &
          real(count_reversals(acceleration, reversal_prominence), dp)/real(choice%periods, dp)
    end subroutine classify
 
-   !> A motion off its harmonics that is known to repeat after several periods of the force is subharmonic.
+   !> A motion off the harmonics that is known to repeat after several periods of the force is subharmonic.
    elemental subroutine note_orbit(verdict, orbit)
       !> Verdict on the harmonics of the motion
       type(rattle_verdict_t), intent(inout) :: verdict
@@ -110,27 +110,29 @@ contains
       !> Share of the power beyond the highest multiple that makes no odds, and share of the highest quarter off the harmonics below
       !> which a motion repeats so well that its impacts come in time: it grows with the square of the order at most
       real(dp), parameter :: negligible = 1.0e-3_dp, repeating_share = 1.0e-5_dp
-      real(dp) :: mean, periods, power, off_harmonics, beyond, share_beyond, irregular_beyond, irregular_fraction, share_repeating
-      logical :: is_bound
-      integer :: highest_quarter
+      real(dp) :: mean, periods, power, varying_fraction, irregular_fraction, share_repeating
+      logical :: is_bound, known_beyond
+      integer :: n
 
       periods = real(record%periods, dp)
       mean = record%acceleration_sum/periods
       power = 2.0_dp*(record%acceleration_square/periods - mean*mean)
-      highest_quarter = (3*record%multiples)/4 + 1
       associate (sums => record%harmonic_sums, squares => record%harmonic_squares)
          ! What varies from period to period is off the harmonics; of the mean of z'' only that.
-         repeating(:) = (abs(sums(1:))/periods)**2
-         varying(:) = max(0.0_dp, squares(1:)/periods - repeating)
-         off_harmonics = sum(varying) + 0.5_dp*max(0.0_dp, squares(0)/periods - (abs(sums(0))/periods)**2)
-         beyond = max(0.0_dp, power/(2.0_dp*frequency)**2 - off_harmonics - sum(repeating))
-         share_beyond = share(sum(varying(highest_quarter:)), sum(repeating(highest_quarter:)))
-         irregular_beyond = beyond*share_beyond
-         irregular_fraction = share(off_harmonics + irregular_beyond, sum(repeating) + beyond - irregular_beyond)
-         is_bound = share_beyond > repeating_share .and. &
-                    beyond - irregular_beyond > negligible*(off_harmonics + sum(repeating) + beyond)
          harmonics(:) = abs(sums(1:))/periods
-         share_repeating = 1.0_dp - irregular_fraction
+         repeating(:) = harmonics**2
+         varying(:) = max(0.0_dp, squares(1:)/periods - repeating)
+         call find_share_off(varying_fraction, is_bound)
+         share_repeating = 1.0_dp - varying_fraction
+         known_beyond = .not. (is_bound .and. varying_fraction > choice%irregular_limit)
+         irregular_fraction = varying_fraction
+         if (choice%common_order > 1) then
+            where ([(modulo(n, choice%common_order) > 0, n=1, record%multiples)])
+               varying = varying + repeating
+               repeating = 0.0_dp
+            end where
+            call find_share_off(irregular_fraction, is_bound)
+         end if
          if (present(by_power)) then
             if (by_power) then
                harmonics(:) = sqrt(squares(1:)/periods)
@@ -138,17 +140,36 @@ contains
             end if
          end if
          call find_harmonics_by_integrals(2.0_dp*frequency*harmonics, share_repeating*power, &
-                                      .not. (is_bound .and. irregular_fraction > choice%irregular_limit), &
-                                      power, choice%forced, choice%dominant_order, choice%harmonic_threshold, noise_floor, &
-                                          verdict%spectrum)
-         if (verdict%spectrum%moving) verdict%spectrum%irregular_fraction = irregular_fraction
-         verdict%spectrum%irregular_is_bound = is_bound .and. verdict%spectrum%moving
+                                          known_beyond, power, choice, noise_floor, verdict%spectrum)
+         if (verdict%spectrum%moving) then
+            verdict%spectrum%varying_fraction = varying_fraction
+            verdict%spectrum%irregular_fraction = irregular_fraction
+            verdict%spectrum%irregular_is_bound = is_bound
+         end if
       end associate
       verdict%class = class_of(verdict%spectrum, choice)
       if (verdict%spectrum%moving) verdict%reversals_per_period = &
          real(count_reversals(record%turns(:record%turn_count), reversal_prominence), dp)/periods
 
    contains
+
+      !> Share of the power off the harmonics, and whether it is a bound.
+      pure subroutine find_share_off(share_off, is_bound)
+         real(dp), intent(out) :: share_off
+         logical, intent(out) :: is_bound
+         real(dp) :: off_harmonics, beyond, share_beyond
+         integer :: highest_quarter
+
+         highest_quarter = (3*record%multiples)/4 + 1
+         associate (mean_sum => record%harmonic_sums(0), mean_squares => record%harmonic_squares(0))
+            off_harmonics = sum(varying) + 0.5_dp*max(0.0_dp, mean_squares/periods - (abs(mean_sum)/periods)**2)
+         end associate
+         beyond = max(0.0_dp, power/(2.0_dp*frequency)**2 - off_harmonics - sum(repeating))
+         share_beyond = share(sum(varying(highest_quarter:)), sum(repeating(highest_quarter:)))
+         share_off = share(off_harmonics + beyond*share_beyond, sum(repeating) + beyond - beyond*share_beyond)
+         is_bound = share_beyond > repeating_share .and. &
+                    beyond - beyond*share_beyond > negligible*(off_harmonics + sum(repeating) + beyond)
+      end subroutine find_share_off
 
       !> Share of the first of two powers in both of them.
       pure real(dp) function share(one, other)
@@ -168,7 +189,7 @@ contains
       if (.not. spectrum%moving) then
          class = class_quiet
       else if (spectrum%irregular_fraction > choice%irregular_limit) then
-         class = class_irregular_so_far
+         class = merge(class_subharmonic, class_irregular_so_far, spectrum%varying_fraction <= choice%irregular_limit)
       else if (spectrum%harmonic_distortion < choice%quiet_limit) then
          class = class_quiet
       else if (spectrum%harmonic_count >= choice%idle_harmonics) then

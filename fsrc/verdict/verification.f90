@@ -369,7 +369,7 @@ contains
       integer :: contact
 
       doubt = doubt_t()
-      if (periods > 1 .or. is_off_harmonics(verdict%class) .or. verdict%class == class_subharmonic) return
+      if (periods > 1 .or. is_off_harmonics(verdict%class)) return
       differences = abs(films(2, :) - films(1, :))/minval(films, dim=1)
       contact = maxloc(differences, dim=1)
       if (differences(contact) > tolerance) doubt = doubt_t(doubt_return, numbers=films(:2, contact))

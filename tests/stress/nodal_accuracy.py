@@ -1,6 +1,6 @@
 """Random loose gears with their films in nodes, as exact as asked: how far they are off 128 nodes.
 
-    python tests/stress/nodal_accuracy.py build/rattle [--scenes 16] [--first 1] [--accuracies 1e-2 1e-3]
+    python tests/stress/nodal_accuracy.py build/rattle [--scenes 50] [--first 1] [--accuracies 1e-2 1e-3]
 
 Gears are those of closure_errors.py, two periods from rest. Nodes and bound are those of `solver.accuracy`.
 The reference has 128 nodes and an accuracy of 1e-5. Errors are those of the largest acceleration and of the
@@ -51,7 +51,7 @@ def main() -> None:
     """Solve the scenes and print the table."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("program", type=Path)
-    parser.add_argument("--scenes", type=int, default=16)
+    parser.add_argument("--scenes", type=int, default=50)
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--accuracies", type=float, nargs="+", default=[1e-2, 3e-3, 1e-3, 1e-4])
     options = parser.parse_args()

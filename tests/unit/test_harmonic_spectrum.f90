@@ -39,15 +39,16 @@ contains
       real(dp), parameter :: amplitudes(4) = [5.0_dp, 2.0_dp, 0.06_dp, 0.04_dp]
       real(dp) :: lines(60), halves(80)
       type(harmonic_spectrum_t) :: spectrum
-      integer :: longer, i
+      type(spectrum_choice_t) :: choice
+      integer :: longer
 
       do longer = 1, 5
+         call note_orders([longer], [1.0_dp], choice)
          lines = 0.0_dp
          lines(longer:4*longer:longer) = amplitudes
          halves = 0.0_dp
          halves(2::2) = lines(:40)
-         call find_harmonics(signal(2, 128, halves, 0), 2, &
-                             [(i == longer, i=1, longer)], longer, 0.01_dp, 1.0e-9_dp, spectrum)
+         call find_harmonics(signal(2, 128, halves, 0), 2, choice, 1.0e-9_dp, spectrum)
          call checks%check(spectrum%harmonic_count == 3, 'a longer cycle: as many')
          call checks%check_close(spectrum%spectral_reach, 1.0_dp + 0.99_dp*4.0052_dp/4.0_dp, 1.0e-10_dp, 'a longer cycle: reach')
          if (longer == 1) cycle
@@ -55,8 +56,7 @@ contains
          lines(1) = 0.02_dp
          lines(2*longer + 1) = 0.02_dp
          halves(2::2) = lines(:40)
-         call find_harmonics(signal(2, 128, halves, 0), 2, &
-                             [(i == longer, i=1, longer)], longer, 0.01_dp, 1.0e-9_dp, spectrum)
+         call find_harmonics(signal(2, 128, halves, 0), 2, choice, 1.0e-9_dp, spectrum)
          call checks%check(spectrum%harmonic_count == 3, 'small ones between: as many')
          call checks%check_close(spectrum%spectral_reach, 1.0_dp + 0.99_dp*4.0052_dp/4.0_dp, 1.0e-3_dp, 'small ones: reach')
       end do
@@ -106,8 +106,7 @@ contains
       type(harmonic_spectrum_t) :: spectrum
 
       call find_harmonics(signal(16, 32, [0.0_dp, 5.0_dp, 0.0_dp, 2.0_dp, 0.0_dp, 0.04_dp, 0.0_dp, 0.06_dp], &
-         0), 16, [.true.], 1, 0.01_dp, &
-         1.0e-9_dp, spectrum)
+         0), 16, spectrum_choice_t(), 1.0e-9_dp, spectrum)
       call checks%check(size(spectrum%harmonics) == 15, 'harmonics below half the samples a period')
       call checks%check_close(spectrum%harmonics(1), 5.0_dp, rounding, 'first harmonic')
       call checks%check_close(spectrum%harmonics(2), 2.0_dp, rounding, 'second harmonic')
@@ -127,10 +126,10 @@ contains
 
       type(harmonic_spectrum_t) :: spectrum
 
-      call find_harmonics(signal(16, 32, [1.0_dp, 2.0_dp, 2.0_dp, 4.0_dp], 0), 16, [.true.], 1, 0.01_dp, 1.0e-9_dp, spectrum)
+      call find_harmonics(signal(16, 32, [1.0_dp, 2.0_dp, 2.0_dp, 4.0_dp], 0), 16, spectrum_choice_t(), 1.0e-9_dp, spectrum)
       call checks%check_close(spectrum%irregular_fraction, 5.0_dp/25.0_dp, rounding, 'half-integer harmonics')
       call checks%check_close(spectrum%harmonics(2), 4.0_dp, rounding, 'the harmonics beside them')
-      call find_harmonics(signal(16, 32, [1.0_dp], 0), 16, [.true.], 1, 0.01_dp, 1.0e-9_dp, spectrum)
+      call find_harmonics(signal(16, 32, [1.0_dp], 0), 16, spectrum_choice_t(), 1.0e-9_dp, spectrum)
       call checks%check_close(spectrum%irregular_fraction, 1.0_dp, rounding, 'nothing but a half-integer harmonic')
       call checks%check(spectrum%harmonic_distortion >= huge(1.0_dp), &
          'no first harmonic: distortion without bound')
@@ -146,8 +145,7 @@ contains
 
       do i = 1, 4
          call find_harmonics(signal(periods(i), steps(i), [0.0_dp, 5.0_dp, 0.0_dp, 2.0_dp], 0), periods(i), &
-            [.true.], 1, 0.01_dp, 1.0e-9_dp, &
-            spectrum)
+                             spectrum_choice_t(), 1.0e-9_dp, spectrum)
          call checks%check(size(spectrum%harmonics) == (steps(i) - 1)/2, 'odd counts: number of harmonics')
          call checks%check_close(spectrum%harmonics(1), 5.0_dp, rounding, 'odd counts: first harmonic')
          call checks%check_close(spectrum%harmonics(2), 2.0_dp, rounding, 'odd counts: second harmonic')
@@ -155,8 +153,7 @@ contains
       end do
       ! A harmonic at half the samples counts once, not twice, in the power.
       call find_harmonics([(3.0_dp*cos(two_pi*real(i, dp)/8.0_dp) + 4.0_dp*real(1 - 2*modulo(i, 2), dp), i=1, &
-         8)], 1, [.true.], 1, 0.01_dp, &
-         1.0e-9_dp, spectrum)
+         8)], 1, spectrum_choice_t(), 1.0e-9_dp, spectrum)
       call checks%check_close(spectrum%irregular_fraction, 1.0_dp - 9.0_dp/(9.0_dp + 2.0_dp*16.0_dp), rounding, &
          'power of the highest bin')
    end subroutine test_odd_counts
@@ -168,9 +165,9 @@ contains
       real(dp), parameter :: halves(6) = [0.5_dp, 5.0_dp, 0.25_dp, 2.0_dp, 0.0_dp, 1.0_dp]
       type(harmonic_spectrum_t) :: spectrum, shifted, doubled
 
-      call find_harmonics(signal(16, 32, halves, 0), 16, [.true.], 1, 0.01_dp, 1.0e-9_dp, spectrum)
-      call find_harmonics(signal(16, 32, halves, 13), 16, [.true.], 1, 0.01_dp, 1.0e-9_dp, shifted)
-      call find_harmonics(signal(16, 64, halves, 0), 16, [.true.], 1, 0.01_dp, 1.0e-9_dp, doubled)
+      call find_harmonics(signal(16, 32, halves, 0), 16, spectrum_choice_t(), 1.0e-9_dp, spectrum)
+      call find_harmonics(signal(16, 32, halves, 13), 16, spectrum_choice_t(), 1.0e-9_dp, shifted)
+      call find_harmonics(signal(16, 64, halves, 0), 16, spectrum_choice_t(), 1.0e-9_dp, doubled)
       call checks%check_close(maxval(abs(spectrum%harmonics - shifted%harmonics)), 0.0_dp, rounding, &
          'shifted: harmonics')
       call checks%check_close(shifted%irregular_fraction, spectrum%irregular_fraction, rounding, &
@@ -190,13 +187,13 @@ contains
       real(dp), parameter :: at_rest(64) = 0.0_dp
       type(harmonic_spectrum_t) :: spectrum
 
-      call find_harmonics(at_rest, 4, [.true.], 1, 0.01_dp, 1.0e-9_dp, spectrum)
+      call find_harmonics(at_rest, 4, spectrum_choice_t(), 1.0e-9_dp, spectrum)
       call checks%check(.not. spectrum%moving .and. spectrum%harmonic_count == 0, 'zero signal')
-      call find_harmonics(at_rest + 7.0_dp, 4, [.true.], 1, 0.01_dp, 1.0e-9_dp, spectrum)
+      call find_harmonics(at_rest + 7.0_dp, 4, spectrum_choice_t(), 1.0e-9_dp, spectrum)
       call checks%check(.not. spectrum%moving, 'constant signal')
-      call find_harmonics(signal(4, 16, [0.0_dp, 0.9e-9_dp], 0), 4, [.true.], 1, 0.01_dp, 1.0e-9_dp, spectrum)
+      call find_harmonics(signal(4, 16, [0.0_dp, 0.9e-9_dp], 0), 4, spectrum_choice_t(), 1.0e-9_dp, spectrum)
       call checks%check(.not. spectrum%moving, 'below the noise')
-      call find_harmonics(signal(4, 16, [0.0_dp, 1.1e-9_dp], 0), 4, [.true.], 1, 0.01_dp, 1.0e-9_dp, spectrum)
+      call find_harmonics(signal(4, 16, [0.0_dp, 1.1e-9_dp], 0), 4, spectrum_choice_t(), 1.0e-9_dp, spectrum)
       call checks%check(spectrum%moving, 'above the noise')
    end subroutine test_rest
 
@@ -208,10 +205,10 @@ contains
       type(harmonic_spectrum_t) :: spectrum, scaled
       integer :: i
 
-      call find_harmonics(signal(16, 32, [0.0_dp, 5.0_dp, 0.0_dp, 2.0_dp], 0), 16, [.true.], 1, 0.01_dp, 1.0e-9_dp, spectrum)
+      call find_harmonics(signal(16, 32, [0.0_dp, 5.0_dp, 0.0_dp, 2.0_dp], 0), 16, spectrum_choice_t(), 1.0e-9_dp, spectrum)
       do i = 1, size(exponents)
-         call find_harmonics(scale(signal(16, 32, [0.0_dp, 5.0_dp, 0.0_dp, 2.0_dp], 0), exponents(i)), 16, [.true.], 1, 0.01_dp, &
-            scale(1.0e-9_dp, exponents(i)), scaled)
+         call find_harmonics(scale(signal(16, 32, [0.0_dp, 5.0_dp, 0.0_dp, 2.0_dp], 0), exponents(i)), 16, &
+                             spectrum_choice_t(), scale(1.0e-9_dp, exponents(i)), scaled)
          call checks%check(scaled%moving .and. scaled%harmonic_count == spectrum%harmonic_count, 'size: harmonics')
          call checks%check_close(scaled%irregular_fraction, spectrum%irregular_fraction, 0.0_dp, 'size: irregular share')
          call checks%check_close(scaled%harmonic_distortion, spectrum%harmonic_distortion, 0.0_dp, 'size: distortion')
@@ -229,13 +226,13 @@ contains
       halves = 0.0_dp
       halves(2) = 10.0_dp
       halves(26) = 2.0e-4_dp
-      call find_harmonics(signal(2, 32, halves, 0), 2, [.true.], 1, 0.01_dp, 1.0e-9_dp, spectrum)
+      call find_harmonics(signal(2, 32, halves, 0), 2, spectrum_choice_t(), 1.0e-9_dp, spectrum)
       call checks%check(.not. spectrum%sampling_sufficient, 'thirteenth harmonic of 32 samples')
       halves(26) = 0.5e-4_dp
-      call find_harmonics(signal(2, 32, halves, 0), 2, [.true.], 1, 0.01_dp, 1.0e-9_dp, spectrum)
+      call find_harmonics(signal(2, 32, halves, 0), 2, spectrum_choice_t(), 1.0e-9_dp, spectrum)
       call checks%check(spectrum%sampling_sufficient, 'thirteenth harmonic, small enough')
       halves(22) = 2.0e-4_dp
-      call find_harmonics(signal(2, 32, halves, 0), 2, [.true.], 1, 0.01_dp, 1.0e-9_dp, spectrum)
+      call find_harmonics(signal(2, 32, halves, 0), 2, spectrum_choice_t(), 1.0e-9_dp, spectrum)
       call checks%check(spectrum%sampling_sufficient, 'eleventh harmonic of 32 samples')
    end subroutine test_sampling
 

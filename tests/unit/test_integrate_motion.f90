@@ -11,7 +11,7 @@ module test_integrate_motion
    use problem, only: of_film, of_velocity, problem_of, problem_t
    use sample_recorder, only: sample_recorder_t
    use scene_status, only: status_complete, status_no_rigid_film, status_not_converged, status_overflow
-   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, scene_t
+   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, scene_t, spectrum_choice_t
    use harmonic_spectrum, only: find_harmonics, harmonic_spectrum_t
    implicit none(type, external)
    private
@@ -58,7 +58,7 @@ contains
       if (ending%status /= status_complete) return
       response%extremes = [minval(recorder%states(:, of_film, 1)), maxval(recorder%states(:, of_film, 1)), &
                              minval(recorder%accelerations), maxval(recorder%accelerations)]
-      call find_harmonics(recorder%accelerations, 1, [.true.], 1, 0.01_dp, 1.0e-10_dp, response%spectrum)
+      call find_harmonics(recorder%accelerations, 1, spectrum_choice_t(), 1.0e-10_dp, response%spectrum)
       response%harmonics = response%spectrum%harmonics(:6)
    end subroutine respond
 

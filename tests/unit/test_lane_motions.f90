@@ -18,7 +18,7 @@ module test_lane_motions
    use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_steady
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, rupture_solver_fast, &
-      rupture_solver_successive, scene_t
+      rupture_solver_successive, scene_t, spectrum_choice_t
    use harmonic_spectrum, only: find_harmonics, harmonic_spectrum_t
    implicit none(type, external)
    private
@@ -143,7 +143,7 @@ contains
          call checks%check(motions%endings(i)%status == status_complete .and. &
                            motions%endings(i)%samples == samples, trim(names(law))//': ended well')
          call accelerations_of_samples(lanes(i), samples, motions%states(:, :, i), values)
-         call find_harmonics(values, 1, [.true.], 1, 0.01_dp, 1.0e-10_dp, spectrum)
+         call find_harmonics(values, 1, spectrum_choice_t(), 1.0e-10_dp, spectrum)
          call checks%check_close(maxval(abs(spectrum%harmonics(:6)/harmonics(:, law) - 1.0_dp)), 0.0_dp, &
                                  1.0e-6_dp, &
                                  trim(names(law))//': harmonics')

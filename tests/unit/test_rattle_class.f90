@@ -4,8 +4,9 @@ module test_rattle_class
    use kinds, only: dp
    use quantities, only: quantity_rattle_class, quantity_word
    use rattle_class, only: class_creep, class_idle, class_irregular_so_far, class_quiet, class_subharmonic, classify, &
-      note_orbit, rattle_verdict_t
-   use scene_types, only: spectrum_choice_t
+      classify_steps, note_orbit, rattle_verdict_t
+   use scene_types, only: note_orders, spectrum_choice_t
+   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -52,6 +53,7 @@ contains
       call test_own_limits(checks)
       call test_reversals_per_period(checks)
       call test_known_orbit(checks)
+      call test_orders_of_force(checks)
       call checks%check(word(class_quiet) == 'quiet' .and. word(class_creep) == 'creep' .and. word(class_idle) == 'idle' .and. &
          word(class_irregular_so_far) == 'irregular_so_far' .and. word(class_subharmonic) == 'subharmonic', 'words')
 
@@ -85,6 +87,68 @@ contains
          samples = samples + harmonics(n)*sin([(two_pi*real(n*i, dp)/real(steps, dp), i=1, periods*steps)])
       end do
    end function signal
+
+   !> A motion that repeats with orders that the force has not got is subharmonic, however many periods of the others the list of
+   !> orders makes a period; and the same by samples and by integrals over the steps.
+   subroutine test_orders_of_force(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(spectrum_choice_t) :: choice
+      real(dp) :: amplitudes(20)
+
+      choice%periods = periods
+      amplitudes = 0.0_dp
+      amplitudes([4, 8]) = [1.0_dp, 0.6_dp]
+      ! The second order, by whose half and three halves a period is doubled: 2 (0.05)^2/(1 + 0.6^2) is a share of 0.0037.
+      amplitudes([2, 6]) = 0.05_dp
+      call note_orders([4, 8], [1.0_dp, 0.4_dp], choice)
+      call expect(class_quiet, 0.0037_dp, 'a little between the orders')
+      call note_orders([1, 4, 8], [0.0_dp, 1.0_dp, 0.4_dp], choice)
+      call expect(class_quiet, 0.0037_dp, 'an order of 0 beside them')
+      amplitudes([2, 6]) = 0.1_dp
+      call expect(class_subharmonic, 0.0145_dp, 'more than the limit')
+      call note_orders([1, 4, 8], [0.0009_dp, 1.0_dp, 0.4_dp], choice)
+      call expect(class_subharmonic, 0.0145_dp, 'with a trace of an order')
+      call note_orders([1, 4, 8], [0.001_dp, 1.0_dp, 0.4_dp], choice)
+      call expect(class_quiet, 0.0_dp, 'with an order of a thousandth')
+      call note_orders([2, 8], [1.0_dp, 1.0_dp], choice)
+      call expect(class_creep, 0.0_dp, 'harmonics of orders of the force')
+      call note_orders([200, 300], [1.0_dp, 1.0_dp], choice)
+      call expect(class_subharmonic, 1.0_dp, 'harmonics below the common order')
+
+   contains
+
+      !> Class and share of the power off the harmonics, by samples and by steps.
+      subroutine expect(class, share, message)
+         integer, intent(in) :: class
+         real(dp), intent(in) :: share
+         character(*), intent(in) :: message
+         type(rattle_verdict_t) :: by_samples, by_steps
+
+         call classify(signal(amplitudes, 0.0_dp), choice, noise_floor, by_samples)
+         call classify_steps(record_of(amplitudes), 0.5_dp, choice, noise_floor, by_steps)
+         call checks%check(by_samples%class == class, 'orders, by samples: '//message//' is '//word(by_samples%class))
+         call checks%check(by_steps%class == class, 'orders, by steps: '//message//' is '//word(by_steps%class))
+         call checks%check_close(by_samples%spectrum%irregular_fraction, share, 1.0e-4_dp, 'share by samples: '//message)
+         call checks%check_close(by_steps%spectrum%irregular_fraction, by_samples%spectrum%irregular_fraction, 1.0e-12_dp, &
+                                 'share by steps: '//message)
+      end subroutine expect
+
+   end subroutine test_orders_of_force
+
+   !> Record of one period with these harmonics, of a force of half a hertz, whose coefficients are the amplitudes.
+   function record_of(harmonics) result(record)
+      real(dp), intent(in) :: harmonics(:)
+      type(window_record_t) :: record
+
+      record%periods = 1
+      record%multiples = size(harmonics)
+      record%acceleration_square = 0.5_dp*sum(harmonics**2)
+      allocate (record%harmonic_sums(0:size(harmonics)), source=(0.0_dp, 0.0_dp))
+      record%harmonic_sums(1:) = cmplx(harmonics, 0.0_dp, dp)
+      allocate (record%harmonic_squares(0:size(harmonics)), source=abs(record%harmonic_sums)**2)
+      allocate (record%turns(0))
+   end function record_of
 
    !> Only a motion off its harmonics that is known to repeat after several periods is subharmonic.
    subroutine test_known_orbit(checks)

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from outcomes import summary_of
 
-REGULAR = ("quiet", "creep", "idle")
+REPEATING = ("quiet", "creep", "idle", "subharmonic")
 # A small order shakes the gear itself: its harmonics may carry a multiple over the threshold, or below it.
-SMALL_SHARES = (1e-6, 1e-4, 1e-2)
+SMALL_SHARES = (1e-6, 1e-4, 3e-3, 1e-2)
+# From this share on an order is no trace: the force repeats with it, and what was subharmonic is its own.
+TRACE = 1e-3
 # A loose third gear of a small car: creep with 18 harmonics at 6.5 degC, idle with 21 at 8 degC.
 PAIR = {
     "teeth_1": "27, teeth_2 = 35",
@@ -25,6 +27,13 @@ PAIR = {
     "immersion_depth": "0.008",
     "backlash": "9.0e-5",
 }
+
+
+def small_name(share: float) -> str:
+    return f"small_{share:.0e}".replace("-", "")
+
+
+NO_TRACE = tuple(small_name(share) for share in SMALL_SHARES if share >= TRACE)
 
 
 def shaft(orders, accelerations, phases, speed=800.0) -> dict[str, str]:
@@ -90,7 +99,7 @@ def changes_of(orders, accelerations, phases):
     yield "zero", ([0.5, *orders], [0.0, *accelerations], [0.0, *phases]), {}
     for share in SMALL_SHARES:
         small = ([0.5, *orders], [share * largest, *accelerations], [0.7, *phases])
-        yield f"small_{share:.0e}".replace("-", ""), small, {}
+        yield small_name(share), small, {}
     yield "doubled", ([1.0, *orders], [0.0, *accelerations], [0.0, *phases]), {}
     yield "reversed", (orders[::-1], accelerations[::-1], phases[::-1]), {}
     yield "shifted", (orders, accelerations, phases + 0.9 * orders), {}
@@ -99,11 +108,22 @@ def changes_of(orders, accelerations, phases):
 
 
 def assert_alike(one: dict, other: dict, change: str) -> None:
-    """Regular, verified motions that are the same by their rms have the same class and numbers."""
-    if one["rattle_class"] not in REGULAR or one["verification"] != "verified" or one["motions"] > 1:
+    """Repeating, verified motions that are the same by their rms have the same class and numbers."""
+    if one["rattle_class"] not in REPEATING or one["verification"] != "verified" or one["motions"] > 1:
+        return
+    subharmonic = one["rattle_class"] == "subharmonic"
+    if subharmonic and change in NO_TRACE:
+        return
+    # Other motions stand beside subharmonic ones: a trace of force, or another phase, may lead to these.
+    is_another = abs(other["acceleration_rms"] / one["acceleration_rms"] - 1.0) > 1e-3
+    if subharmonic and is_another and change.startswith(("small", "shifted")):
         return
     assert other["acceleration_rms"] == pytest.approx(one["acceleration_rms"], rel=0.02), change
     assert other["rattle_class"] == one["rattle_class"], change
+    if subharmonic:
+        # Harmonics between those of the force are listed or not, as the list of orders goes.
+        assert other["verdict"] == one["verdict"], change
+        return
     if not (one["harmonic_count_is_bound"] or other["harmonic_count_is_bound"]):
         assert abs(other["harmonic_count"] - one["harmonic_count"]) <= 1 + 0.05 * one["harmonic_count"], (
             change
@@ -111,7 +131,7 @@ def assert_alike(one: dict, other: dict, change: str) -> None:
     if "spectral_reach" in one and "spectral_reach" in other:
         assert other["spectral_reach"] == pytest.approx(one["spectral_reach"], rel=0.02), change
     # With an order of a hundredth it is another force: a load next to the limit of impacts passes it or not.
-    if change == f"small_{SMALL_SHARES[-1]:.0e}".replace("-", ""):
+    if change in NO_TRACE:
         return
     assert other["verdict"] == one["verdict"], change
     for name in ("impacts_per_second_drive", "impacts_per_revolution_drive"):

@@ -54,8 +54,7 @@ CLASSES = {
     "irregular_so_far": "irregular so far by its sound: no period of the motion is like the one before, but "
     "it may settle. A share of {irregular_fraction} of the power of the acceleration lies off the harmonics "
     "of the force.",
-    "subharmonic": "subharmonic rattle by its sound: the motion repeats, but only after {orbit_period} "
-    "periods of the force.",
+    "subharmonic": "subharmonic rattle by its sound: the motion repeats, but {repeat}.",
 }
 # The same words without numbers, for several motions.
 CLASS_MEANINGS = {
@@ -492,6 +491,12 @@ def _words(result: Result, summary: Summary) -> dict[str, str]:
     }
     for name in ("harmonic_distortion", "irregular_fraction", "orbit_period"):
         words[name] = f"{summary[name]:.4g}" if name in summary else "unknown"
+    words["repeat"] = f"only after {words['orbit_period']} periods of the force"
+    if summary.get("orbit_period", 0) <= 1:
+        words["repeat"] = (
+            f"a share of {words['irregular_fraction']} of the power of the acceleration lies between the "
+            "harmonics of the force"
+        )
     largest = "the largest one of the force's own harmonics" if forced(result) else "the first"
     words["threshold"] = f"{100.0 * limits.get('harmonic_threshold', 0.0):g} % of {largest}"
     return words | {"lines": f"{bound}{count} {noun}"}
