@@ -69,16 +69,21 @@ def test_rows_are_single_scenes_of_the_model_they_tell(rows: Path) -> None:
         assert chosen["acceleration_maximum"] == alone["acceleration_maximum"]
 
 
-def test_threads_and_parts_leave_the_same_bytes(rows: Path, run) -> None:
-    whole = (rows / "one/rows.rattle").read_bytes()
-    ended = run("--output", "two", "--threads", "2", "rows.nml", cwd=rows)
-    assert ended.returncode == 0 and (rows / "two/rows.rattle").read_bytes() == whole
-    columns = package.read(rows / "one/rows.rattle")
+@pytest.mark.parametrize("forces", [(2.0, 60.0), pytest.param(FORCES, marks=pytest.mark.long)])
+def test_threads_and_parts_leave_the_same_bytes(forces: tuple[float, ...], run, tmp_path: Path) -> None:
+    listed = ", ".join(map(str, forces))
+    (tmp_path / "rows.nml").write_text(CAMPAIGN.replace(", ".join(map(str, FORCES)), listed))
+    for folder, threads in (("one", 1), ("two", 2)):
+        ended = run("--output", folder, "--threads", threads, "rows.nml", cwd=tmp_path)
+        assert ended.returncode == 0, ended.stderr
+    assert (tmp_path / "two/rows.rattle").read_bytes() == (tmp_path / "one/rows.rattle").read_bytes()
+    columns = package.read(tmp_path / "one/rows.rattle")
+    assert {1.0, 2.0} == set(columns["film_model"])
     for part in (1, 2):
         parts = ("--set", "campaign.parts=2", "--set", f"campaign.part={part}")
-        ended = run("--output", "parts", *parts, "rows.nml", cwd=rows)
+        ended = run("--output", "parts", *parts, "rows.nml", cwd=tmp_path)
         assert ended.returncode == 0, ended.stderr
-    found = [package.read(path) for path in sorted((rows / "parts").glob("rows.part-*.rattle"))]
+    found = [package.read(path) for path in sorted((tmp_path / "parts").glob("rows.part-*.rattle"))]
     for name in columns.names:
         joined = np.concatenate([np.array(part[name]) for part in found])
         np.testing.assert_array_equal(joined, np.array(columns[name]))
@@ -136,15 +141,14 @@ def test_rows_whose_verdict_stands_near_its_limit_are_solved_in_nodes(run, tmp_p
             assert ("within the error of the closure" in alone["model_text"]) == in_nodes
 
 
-def test_a_scene_says_why(rows: Path, run) -> None:
-    (rows / "single.nml").write_text(GEAR)
+def test_a_scene_says_why(run, tmp_path: Path) -> None:
+    (tmp_path / "single.nml").write_text(GEAR)
     for force, words in ((60.0, "fitted to films up to M = 2"), (2.0, "")):
         folder = f"why_{force:g}"
-        ended = run(
-            "--verbose", "--output", folder, "--set", f"load.force_amplitude={force}", "single.nml", cwd=rows
-        )
+        setting = ("--set", f"load.force_amplitude={force}")
+        ended = run("--verbose", "--output", folder, *setting, "single.nml", cwd=tmp_path)
         assert ended.returncode == 0, ended.stderr
-        reported = summary_of(rows / folder / "single.summary.nml")
+        reported = summary_of(tmp_path / folder / "single.summary.nml")
         assert words in reported["model_text"] and reported["model_text"][:40] in ended.stdout
 
 
