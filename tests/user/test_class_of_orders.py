@@ -138,8 +138,12 @@ def assert_alike(one: dict, other: dict, change: str) -> None:
         assert other[name] == pytest.approx(one[name], rel=1e-9), change
 
 
+# Gears 4 and 9 settle late: they take three quarters of what the first ten take.
+QUICK_GEARS = (0, 1, 2, 3, 5, 6, 7, 8)
+
+
 @pytest.mark.parametrize(
-    "seed", [*range(10), *(pytest.param(n, marks=pytest.mark.long) for n in range(10, 100))]
+    "seed", [pytest.param(n, marks=() if n in QUICK_GEARS else pytest.mark.long) for n in range(100)]
 )
 def test_no_way_to_write_a_force_changes_the_class(run, tmp_path, seed) -> None:
     gear, orders, accelerations, phases, celsius = random_gear(np.random.default_rng(seed))
