@@ -57,9 +57,10 @@ def test_newmark_is_refused(run, tmp_path: Path) -> None:
 
 
 def test_a_resumed_run_is_the_whole_one(run, tmp_path: Path) -> None:
-    (tmp_path / "teeth.nml").write_text(S5.replace("periods = 30", "periods = 8"))
+    whole = S5.replace("&solver", "&solver starts = 1,")
+    (tmp_path / "teeth.nml").write_text(whole.replace("periods = 30", "periods = 8"))
     assert run("teeth.nml", cwd=tmp_path).returncode == 0
-    (tmp_path / "teeth.nml").write_text(S5)
+    (tmp_path / "teeth.nml").write_text(whole)
     assert run("teeth.nml", "--resume", cwd=tmp_path).returncode == 0
     assert run("teeth.nml", "--output", "whole", cwd=tmp_path).returncode == 0
     resumed, whole = (rattle.read(tmp_path / place / "teeth.rattle") for place in ("results", "whole"))
