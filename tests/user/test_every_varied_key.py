@@ -204,14 +204,14 @@ def test_what_follows_from_the_values_of_sweeps(base: str, values, run, place: P
     keys = [key for key in values[base] if key.split(".")[1] in swept]
     assert keys
     # What follows asks for no more than a calm motion.
-    calm = BASES[base].replace("force_scale = 0.9", "force_scale = 0.05").replace(", starts = 1", "")
+    calm = BASES[base].replace("force_scale = 0.9", "force_scale = 0.05")
     held = {**values[base], "load.force_scale": 0.05}
     (place / "one.nml").write_text(calm)
     for key in keys:
         first, name = held[key], key.split(".")[1]
         last = changed(key, first)
         sweep = f"&sweep key = '{name}', first = {first!r}, last = {last!r}, count = 2, turn = F /\n"
-        (place / "way.nml").write_text(calm + "&scene task = 'sweep' /\n" + sweep)
+        (place / "way.nml").write_text(calm.replace(", starts = 1", "") + "&scene task = 'sweep' /\n" + sweep)
         ended = run("--overwrite", "way.nml", cwd=place)
         if "the input does not use" in ended.stderr:  # that of &contact, which follows from &gear
             continue
