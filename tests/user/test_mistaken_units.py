@@ -24,7 +24,7 @@ PAIR = """&gear
    viscosity_40_cst = 58.0, viscosity_100_cst = 9.6, temperature_celsius = 60.0
 /
 &film law = 'iso-viscous', model = 'reynolds' /
-&solver periods = 4, accuracy = 1e-6 /
+&solver periods = 4, starts = 1, accuracy = 1e-6 /
 &spectrum periods = 2, verify = .false. /
 """
 # Of a gear: what is typed, and what would have been meant.
