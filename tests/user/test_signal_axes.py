@@ -26,7 +26,7 @@ GEAR = """
 /
 &oil viscosity_40_cst = 58.0, viscosity_100_cst = 9.6, temperature_celsius = 40.0 /
 &film law = 'iso-viscous', model = 'reynolds' /
-&solver periods = 4, accuracy = 1e-6 /
+&solver periods = 4, starts = 1, accuracy = 1e-6 /
 &spectrum periods = 2 /
 &output directory = 'results' /
 """
