@@ -28,7 +28,11 @@ RUN_UP = "&shaft speed_rpm = 800.0, table = 'run_up.csv' /\n"
 REST = """&oil viscosity_40_cst = 58.0, viscosity_100_cst = 9.6, temperature_celsius = 50.0 /
 &film law = 'iso-viscous', model = 'reynolds' /
 """
-SHORT = "&solver periods = 6, accuracy = 1e-6, samples_per_period = 256 /\n&spectrum periods = 2 /\n"
+SHORT = (
+    "&solver periods = 6, starts = 1, accuracy = 1e-6, samples_per_period = 256 /\n&spectrum periods = 2 /\n"
+)
+# A sweep begins with the motion from rest alone: it refuses the key.
+SWEPT = SHORT.replace(" starts = 1,", "")
 DRAG_ROWS = ["600,20,.16", "600,60,.05", "1000,20,.20", "1000,60,.07"]
 RUN_UP_ROWS = ["600,900,0,120,3", "1000,600,.2,100,-3", "2000,500,.4,150,-2"]
 DRAG_HEAD = "speed_rpm,temperature_celsius,torque"
@@ -396,7 +400,8 @@ def test_values_outside_a_table_are_refused_before_anything_runs(
     task: str, words: str, call, tmp_path: Path
 ) -> None:
     kind = task.split()[0]
-    text = scene(TABULATED) + f"&scene task = '{kind}' /\n&{task} /\n"
+    solver = SWEPT if kind == "sweep" else SHORT
+    text = scene(TABULATED, rest=solver) + f"&scene task = '{kind}' /\n&{task} /\n"
     ended = call(text, ends=2)
     assert words in ended.stderr and "goes from" in ended.stderr, ended.stderr
     assert not (tmp_path / "results").exists() or not any((tmp_path / "results").iterdir())
@@ -468,7 +473,7 @@ def test_sweeps_tell_the_drag_of_each_value(
 ) -> None:
     group = {"speed_rpm": "shaft", "temperature_celsius": "oil", "drag_scale": "gear"}[key]
     sweep = f"&sweep key = '{key}', first = {first}, last = {last}, count = 3, turn = .false. /\n"
-    call(scene(drag, RUN_UP) + "&scene task = 'sweep' /\n" + sweep, "--output", "swept")
+    call(scene(drag, RUN_UP, SWEPT) + "&scene task = 'sweep' /\n" + sweep, "--output", "swept")
     rows = package.read(tmp_path / "swept" / "pair.rattle")
     for row in range(3):
         value = float(rows[key][row])
