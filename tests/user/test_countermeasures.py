@@ -123,6 +123,7 @@ def test_variants_are_solved_and_ranked_by_what_they_gain_for_their_cost(reporte
     assert float(rows["half"]["gain_db_per_cost"]) == pytest.approx(-float(rows["half"]["change_db"]) / 4.0)
 
 
+@pytest.mark.long
 def test_scenes_one_by_one_find_what_the_program_follows(reported: Path, tmp_path: Path) -> None:
     (scene,) = opened(reported / "pair.nml", tmp_path).pairs
     (lever,) = (lever for lever in levers(scene.groups, {}) if lever.key == KEYS[0])
