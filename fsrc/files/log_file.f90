@@ -1,5 +1,5 @@
-!> Log of a scene. A line goes to the terminal and to NAME.log alike, a detail to the terminal only where all of the log is wanted
-!> there, and a row, which says in short what details say, only where not.
+!> Log of a scene. A line goes to the terminal and to NAME.log alike, as does an item, a line with a label. A detail goes to the
+!> terminal only where all of the log is wanted there, and a row, which says in short what details say, only where not.
 module log_file
    use, intrinsic :: iso_c_binding, only: c_int
    use errors, only: error_t, error_words, exit_system, last_error, raise
@@ -12,6 +12,8 @@ module log_file
 
    !> First word of every log, by which one is known.
    character(*), parameter, public :: log_magic = 'rattle '
+   !> Width of the column of labels
+   integer, parameter :: label_width = 17
 
    !> An open log.
    type, public :: log_t
@@ -22,6 +24,7 @@ module log_file
    contains
       procedure :: open => open_log
       procedure :: line => log_line
+      procedure :: item => log_item
       procedure :: detail => log_detail
       procedure :: row => log_row
       procedure :: close => close_log
@@ -70,6 +73,17 @@ contains
       call write_to_file(self, text)
    end subroutine log_line
 
+   !> Write a line with a label.
+   subroutine log_item(self, label, text)
+      class(log_t), intent(in) :: self
+      !> What the line shows; empty for what belongs to the line before
+      character(*), intent(in) :: label
+      !> The value with its unit
+      character(*), intent(in) :: text
+
+      call self%line(labelled(label, text))
+   end subroutine log_item
+
    !> Write a line that the terminal has where all is wanted there.
    subroutine log_detail(self, text)
       class(log_t), intent(in) :: self
@@ -87,10 +101,18 @@ contains
       character(*), intent(in) :: label
       !> The value with its unit
       character(*), intent(in) :: text
-      integer, parameter :: width = 14
 
-      if (self%to_terminal .and. .not. self%verbose) call put_line('  '//label//repeat(' ', width - len(label))//text)
+      if (self%to_terminal .and. .not. self%verbose) call put_line(labelled(label, text))
    end subroutine log_row
+
+   !> Text behind its label.
+   pure function labelled(label, text) result(line)
+      character(*), intent(in) :: label
+      character(*), intent(in) :: text
+      character(:), allocatable :: line
+
+      line = '  '//label//repeat(' ', label_width - len(label))//text
+   end function labelled
 
    subroutine write_to_file(self, text)
       class(log_t), intent(in) :: self

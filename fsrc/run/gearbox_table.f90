@@ -15,7 +15,7 @@ module gearbox_table
                          quantity_film_force_rms, quantity_film_minimum, quantity_loudest_acceleration_rms, &
                          quantity_loudest_class, quantity_motions, quantity_rattle_class, quantity_table, quantity_verdict, &
                          quantity_word
-   use scene_report, only: acceleration_words
+   use scene_report, only: acceleration_words, operating_point
    use scene_status, only: is_success, status_complete, status_interrupted, status_name
    use scene_types, only: scene_t
    use summary_file, only: checksum_in_summary, read_from_summary, summary_t
@@ -127,6 +127,7 @@ contains
       call log%open(log_path(gearbox), quiet, error, verbose)
       if (allocated(error)) return
       call log%line(log_magic//program_version//', gearbox '//trim(gearbox%name)//': '//counted(pairs, 'pair'))
+      call log%item('operating point', operating_point(gearbox))
       sums = together(pairs, rows)
       call report_rows(log, gearbox, rows, sums)
       call summary%add('name', trim(gearbox%name))

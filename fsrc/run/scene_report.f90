@@ -18,6 +18,7 @@ module scene_report
       quantity_iterations_per_step, quantity_model_limit, quantity_orbit_stability, quantity_rattle_class, quantity_t, &
       quantity_table, quantity_verdict, quantity_verdict_verified, quantity_word
    use film_pressure, only: exact_pressure
+   use key_table, only: choice_word
    use rattle_class, only: class_irregular, class_irregular_so_far, sounds
    use regime, only: contact_deflection, deflection_limit, film_elastohydrodynamic, film_iso_viscous, film_regime, &
       hertzian_pressure, rigid_limit, steel_tooth
@@ -37,8 +38,8 @@ module scene_report
    real(dp), parameter :: level_reference = 1.0e-6_dp
 
    public :: acceleration_in_short, acceleration_words, deflects_in_words, film_force_in_short, has_coarse_series, law_sentence, &
-             report_ending, report_head, report_start, resolved_lines, samples_key, speed_meaning, steel_stiffness_in_words, &
-             value_words, verdict_in_short, verdict_sentence
+             operating_point, report_ending, report_head, report_start, resolved_lines, samples_key, speed_meaning, &
+             steel_stiffness_in_words, value_words, verdict_in_short, verdict_sentence
 
 contains
 
@@ -72,6 +73,7 @@ contains
       do i = 1, size(scene%warnings)
          call log%detail('  '//scene%warnings(i)%text)
       end do
+      call log%detail('  '//operating_point(scene))
       if (scene%gear%given) call log%detail('  profile shift sum '//short_text(scene%teeth%shift_sum, 3)//', contact ratio '// &
                                           short_text(scene%teeth%contact_ratio, 4)//', overlap ratio '// &
                                           short_text(scene%teeth%overlap_ratio, 4))
@@ -83,6 +85,31 @@ contains
          call log%detail('  no rigid piezo-viscous film carries the static load')
       end if
    end subroutine report_start
+
+   !> Speed, oil and force of a scene.
+   pure function operating_point(scene) result(words)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: words
+      integer, parameter :: digits = 4
+
+      if (scene%gear%given) then
+         words = 'shaft '//short_text(scene%shaft%speed_rpm, digits)//' 1/min; oil '
+      else
+         words = 'entrainment speed '//short_text(scene%kinematics%entrainment_speed, digits)//' m/s; oil '
+      end if
+      if (scene%oil%given) words = words//short_text(scene%oil%temperature_celsius, digits)//' degC, '
+      words = words//short_text(scene%lubricant%viscosity, digits)//' Pa s, '// &
+              choice_word('lubricant.viscosity_law', scene%lubricant%viscosity_law)//'; force '
+      associate (load => scene%excitation)
+         if (allocated(load%force_orders)) then
+            words = words//'of '//counted(size(load%force_orders), 'order')//' of '
+         else
+            words = words//short_text(load%force_scale*load%force_amplitude, digits)//' N at '
+         end if
+         words = words//short_text(load%frequency, digits)//' Hz'
+      end associate
+   end function operating_point
 
    !> A line with the quantities of a part that the log reports, by their names; without any there is no line.
    subroutine report_part(log, judged, part)

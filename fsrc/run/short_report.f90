@@ -16,8 +16,8 @@ module short_report
       quantity_orbit_stability, quantity_steady_film, quantity_table, quantity_word
    use rattle_class, only: class_irregular, class_irregular_so_far
    use regime_check, only: fitting_law, gap_both, gap_too_narrow, gap_too_wide, outside_closure
-   use scene_report, only: acceleration_in_short, deflects_in_words, film_force_in_short, has_coarse_series, samples_key, &
-      steel_stiffness_in_words, value_words, verdict_in_short
+   use scene_report, only: acceleration_in_short, deflects_in_words, film_force_in_short, has_coarse_series, operating_point, &
+      samples_key, steel_stiffness_in_words, value_words, verdict_in_short
    use scene_status, only: is_success, status_name, status_sentence
    use scene_types, only: scene_t
    use text, only: counted, error_text, integer_text, short_text
@@ -25,7 +25,7 @@ module short_report
    implicit none(type, external)
    private
 
-   !> Lines of warnings: fifteen in all, less the twelve that a gear pair has else.
+   !> Lines of warnings: fifteen in all, less the twelve that a scene has else; of a gear pair its drag takes one more.
    integer, parameter :: most_warnings = 3
    !> What a note on the input begins with where it is a warning
    character(*), parameter :: note_label = 'warning: '
@@ -48,6 +48,7 @@ contains
 
       in_table = scene%gearbox /= ''
       if (judged%judged) call log%row('verdict', verdict_in_short(judged))
+      if (.not. in_table) call log%row('operating point', operating_point(scene))
       if (.not. is_success(judged%status)) then
          call log%row('ended', status_name(judged%status)//' at t = '//short_text(judged%ending%time, 6)//' s')
          call log%row('', status_sentence(judged%status))
@@ -96,8 +97,12 @@ contains
          ! Of a side without impacts, or that is none, the rate is 0 or unknown.
          if (.not. rate > 0.0_dp) cycle
          velocity = quantity_value(quantity_code('impact_velocity_maximum_'//sides(i)), judged)
-         if (len(words) > 0) words = words//', '
-         words = words//short_text(rate, 3)//' a period on the '//sides(i)//' flank'
+         if (len(words) > 0) then
+            words = words//', '//short_text(rate, 3)
+         else
+            words = short_text(rate, 3)//' a period'
+         end if
+         words = words//' on the '//sides(i)//' flank'
          fastest = max(fastest, velocity)
       end do
       if (len(words) > 0) then
@@ -210,7 +215,7 @@ contains
       type(scene_t), intent(in) :: scene
       type(judged_scene_t), intent(in) :: judged
       type(word_t), allocatable :: warnings(:)
-      integer :: i, certain, shown
+      integer :: i, certain, shown, most
 
       allocate (warnings(0))
       ! What is left over is what matters least.
@@ -225,7 +230,8 @@ contains
          if (index(scene%warnings(i)%text, note_label) /= 1) call add(in_one_line(scene%warnings(i)%text))
       end do
       shown = size(warnings)
-      if (shown > most_warnings) shown = most_warnings - 1
+      most = most_warnings - merge(1, 0, scene%gear%given)
+      if (shown > most) shown = most - 1
       do i = 1, shown
          call log%row(trim(merge('warning', 'input  ', i <= certain)), warnings(i)%text)
       end do
@@ -250,7 +256,7 @@ contains
          if (quantity_value(quantity_closure_range, judged) >= real(outside_closure, dp)) &
             call add("closure_range: the film is extrapolated; film.model = 'resolved' solves it")
          if (deflects_in_words(scene, quantity_value(quantity_deflection_share, judged)) /= '') &
-            call add('stiffness_matters: steel teeth deflect '// &
+            call add('stiffness_matters: steel deflects '// &
                      deflects_in_words(scene, quantity_value(quantity_deflection_share, judged))//' the film; '// &
                      steel_stiffness_in_words(scene))
          if (has_coarse_series(scene, judged)) &
@@ -277,7 +283,7 @@ contains
    pure function in_one_line(note) result(words)
       character(*), intent(in) :: note
       character(:), allocatable :: words
-      integer, parameter :: longest = 90
+      integer, parameter :: longest = 87
 
       words = note
       if (len(words) > longest) words = words(:index(words(:longest), ' ', back=.true.))//'...'

@@ -190,22 +190,22 @@ def test_side_by_side_tells_and_writes_the_same(solve, scene_text, run, tmp_path
     (tmp_path / "last.nml").write_text(scene_text())
     reported = {}
     for threads in (1, 2, 5):
-        place = str(threads)
+        place = f"by{threads}"
         files = ("box.nml", "lost.nml", "last.nml")
         ended = run(*files, "--threads", threads, "--output", place, cwd=tmp_path, timeout=600.0)
         assert ended.returncode == 1 and ended.stderr == ""
         reported[place] = re.sub(r"in \S+ s,", "", ended.stdout).replace(f" {place}/", " ")
-    first = [line for line in reported["1"].splitlines() if line.startswith("rattle ")]
+    first = [line for line in reported["by1"].splitlines() if line.startswith("rattle ")]
     assert [line.split(", ")[1].split(":")[0] for line in first] == [
         *("scene box.1st", "scene box.4th", "gearbox box", "scene lost", "scene last")
     ]
-    assert reported["1"] == reported["2"] == reported["5"]
-    written = sorted(path.name for path in (tmp_path / "1").iterdir())
+    assert reported["by1"] == reported["by2"] == reported["by5"]
+    written = sorted(path.name for path in (tmp_path / "by1").iterdir())
     assert "box.4th.state" in written and "box.summary.nml" in written
-    for place in ("2", "5"):
+    for place in ("by2", "by5"):
         assert sorted(path.name for path in (tmp_path / place).iterdir()) == written
         for name in written:
-            one, other = (tmp_path / folder / name for folder in ("1", place))
+            one, other = (tmp_path / folder / name for folder in ("by1", place))
             if name.endswith(".nml"):
                 ours, theirs = summary_of(one), summary_of(other)
                 assert {**ours, "wall_seconds": 0} == {**theirs, "wall_seconds": 0}, name

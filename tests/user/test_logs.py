@@ -52,6 +52,22 @@ def um(length: float, digits: int) -> str:
     return f"{short(1e6 * length, digits)} um"
 
 
+def operating_point(given: Mapping[str, Any]) -> str:
+    """Speed, oil and force, from the resolved input with what is derived."""
+    load, oil = given["load"], given["lubricant"]
+    speed = f"entrainment speed {short(given['kinematics']['entrainment_speed'], 4)} m/s"
+    if "gear" in given:
+        speed = f"shaft {short(given['shaft']['speed_rpm'], 4)} 1/min"
+    heat = f"{short(given['oil']['temperature_celsius'], 4)} degC, " if "oil" in given else ""
+    orders = load.get("force_orders")
+    force = f"of {counted(np.size(orders), 'order')} of" if orders else ""
+    force = force or f"{short(load['force_scale'] * load['force_amplitude'], 4)} N at"
+    return (
+        f"{speed}; oil {heat}{short(oil['viscosity'], 4)} Pa s, {oil['viscosity_law']}; "
+        f"force {force} {short(load['frequency'], 4)} Hz"
+    )
+
+
 def start_of_motion(summary: Mapping[str, Any]) -> str:
     """What is known before it is solved."""
     if "steady_film" not in summary:
@@ -86,6 +102,7 @@ def lines_of_motion(path: Path) -> list[str | None]:
     return [
         f"rattle {summary['program_version']}, scene {summary['name']}: "
         f"{LAWS[summary['model'], summary['law']]}",
+        f"  {operating_point(given)}",
         teeth_words(summary) if "gear" in given else None,
         start_of_motion(summary),
         "  no natural frequency: small motions about the steady film are overdamped"
@@ -399,8 +416,10 @@ def test_the_log_of_a_gearbox_is_its_table(run, repository, tmp_path, change, co
     behind_sums = slice(len(lines) - 2 - len(others), len(lines) - 2)
     assert lines[behind_sums] == others
     del lines[behind_sums]
-    head, heads, units, *rows, uncorrelated, in_phase, words, relative, file = lines
+    head, point, heads, units, *rows, uncorrelated, in_phase, words, relative, file = lines
     assert head == f"rattle {table['program_version']}, gearbox box: {len(table['gears'])} pairs"
+    of_a_pair = (tmp_path / "box.4th.log").read_text().splitlines()
+    assert point.removeprefix("  operating point") in of_a_pair
     cells = [[cell for cell in re.split("  +", row.strip()) if cell] for row in rows]
     assert cells == [reported_by_the_table(gear, summary) for gear, summary in ranked]
     assert tuple(re.split("  +", heads.strip())) == HEADS and tuple(re.split("  +", units.strip())) == UNITS
