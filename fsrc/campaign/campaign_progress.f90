@@ -4,7 +4,7 @@ module campaign_progress
    use errors, only: error_t
    use file_system, only: is_terminal
    use kinds, only: dp, int64
-   use log_file, only: log_t
+   use log_file, only: labelled, log_t
    use ranks, only: sum_over_ranks
    use row_counts, only: count_done, count_failed, count_tested, count_uncertain, counts_of_rows
    use summary_file, only: summary_t
@@ -113,9 +113,9 @@ contains
 
       self%last_report = now
       if (.not. self%on_terminal) then
-         call log%line('  '//words(self, now))
+         call log%item('scenes', words(self, now))
       else if (.not. self%quiet) then
-         call show_on_terminal(achar(13)//'  '//words(self, now)//'   ')
+         call show_on_terminal(achar(13)//labelled('scenes', words(self, now))//'   ')
       end if
    end subroutine report_line
 
@@ -139,7 +139,7 @@ contains
       ! The counts are those of all ranks now.
       self%done_elsewhere = 0_int64
       call write_progress(self, wall_seconds())
-      call log%line('  '//words(self, wall_seconds()))
+      call log%item('scenes', words(self, wall_seconds()))
    end subroutine finish
 
    !> How far, how fast, how long still, how many failures and doubts.
@@ -153,12 +153,12 @@ contains
       done = self%counts(count_done) + self%done_elsewhere
       if (self%looked_at > 0_int64) then
          rate = real(self%looked_at, dp)/max(now - self%started, 1.0e-9_dp)
-         line = integer_text(self%looked_at)//' of '//integer_text(self%scenes)//' scenes looked at, none solved yet; '// &
+         line = integer_text(self%looked_at)//' of '//integer_text(self%scenes)//' looked at, none solved yet; '// &
                 short_text(real(self%scenes - self%looked_at, dp)/rate, 2)//' s left to look'
          return
       end if
       rate = real(done, dp)/max(now - self%started, 1.0e-9_dp)
-      line = integer_text(self%done_before + done)//' of '//integer_text(self%scenes)//' scenes, '// &
+      line = integer_text(self%done_before + done)//' of '//integer_text(self%scenes)//', '// &
              short_text(rate, 3)//' a second'
       if (done > 0 .and. self%done_before + done < self%scenes) line = line//', '// &
          short_text(real(self%scenes - self%done_before - done, dp)/rate, 2)//' s left'

@@ -18,6 +18,7 @@ module run_campaign
    use row_counts, only: count_beyond_model, count_done, count_failed, count_followed, count_irregular, count_irregular_so_far, &
       count_rows, count_several, count_tested, count_uncertain, count_undersampled
    use scene_summary, only: add_notes, add_results
+   use regime_check, only: outside_model
    use scene_status, only: status_complete, status_interrupted, status_name, status_not_written
    use scene_types, only: scene_t
    use schedule, only: pace_t
@@ -123,8 +124,8 @@ contains
    subroutine report_start(self)
       class(campaign_task_t), intent(in) :: self
 
-      if (self%spoilt > 0) call self%log%line('  '//integer_text(self%spoilt)// &
-                                              ' chunks of the earlier run were damaged; they are solved again')
+      if (self%spoilt > 0) call self%log%item('earlier run', integer_text(self%spoilt)// &
+                                              ' of its chunks were damaged; they are solved again')
    end subroutine report_start
 
    subroutine solve(self, error)
@@ -343,27 +344,24 @@ contains
       type(longest_scene_t), intent(in) :: longest
 
       associate (counts => progress%counts)
-         if (counts(count_beyond_model) > 0) call log%line('  warning: '//counted(counts(count_beyond_model), 'scene')// &
-            ' outside the range of the model: films above a tenth of the radius or below 1 nm (column model_limit)')
-         if (counts(count_undersampled) > 0) call log%line('  warning: the harmonics of '// &
-            counted(counts(count_undersampled), 'scene')//' are not resolved (column sampling_sufficient); '// &
-            'raise campaign.samples_per_period')
-         if (counts(count_tested) > 0) call log%line('  '//integer_text(counts(count_uncertain))//' of '// &
-            integer_text(counts(count_tested))//' scenes not verified: solved again, tighter, the class is another or close to '// &
-            'a limit (column verified)')
-         if (counts(count_irregular) > 0) call log%line('  '//counted(counts(count_irregular), 'scene')//' irregular: '// &
-            'their numbers are those of 100 periods or more, with standard errors (rattle_class, acceleration_rms_error)')
-         if (counts(count_irregular_so_far) > 0) call log%line('  '//counted(counts(count_irregular_so_far), 'scene')// &
-            ' irregular so far: no repetition, and no Lyapunov exponent that is surely positive (rattle_class)')
-         if (longest%number > 0_int64) call log%line('  the longest: scene '//integer_text(longest%number)//', '// &
-                                                     counted(longest%steps, 'step'))
-         call log%line('  '//result_path(scene))
-         call log%line('  '//summary_path(scene))
+         if (counts(count_uncertain) > 0) call log%item('not verified', integer_text(counts(count_uncertain))//' of '// &
+            counted(counts(count_tested), 'scene')//': a tighter solution has another class, or comes close to a limit (verified)')
+         if (counts(count_irregular) > 0) call log%item('irregular', counted(counts(count_irregular), 'scene')// &
+            ': numbers of 100 periods or more, with standard errors (acceleration_rms_error)')
+         if (counts(count_irregular_so_far) > 0) call log%item('irregular so far', &
+            counted(counts(count_irregular_so_far), 'scene')//': no repetition, no Lyapunov exponent that is surely positive')
          if (counts(count_followed) > 0 .and. scene%solver%starts > 1) &
-            call log%line('  '//integer_text(counts(count_several))//' of '//counted(counts(count_followed), 'scene')// &
-                          ' have several motions; '//integer_text(scene%solver%starts)//' starts'// &
+            call log%item('motions', 'several at '//integer_text(counts(count_several))//' of '// &
+                          counted(counts(count_followed), 'scene')//'; '//integer_text(scene%solver%starts)//' starts'// &
                           trim(merge(' and neighbours', '               ', scenes_of_block(scene, campaign%plan) > 1))// &
                           ' do not prove that there are no others')
+         if (longest%number > 0_int64) call log%item('longest', 'scene '//integer_text(longest%number)//', '// &
+                                                     counted(longest%steps, 'step'))
+         call log%item('files', summary_path(scene)//', .rattle, .log')
+         if (counts(count_beyond_model) > 0) call log%item('warning', outside_model(counted(counts(count_beyond_model), 'scene')))
+         if (counts(count_undersampled) > 0) call log%item('warning', 'harmonics of '// &
+            counted(counts(count_undersampled), 'scene')//' are not resolved (sampling_sufficient); '// &
+            'raise campaign.samples_per_period')
       end associate
    end subroutine report_ending
 

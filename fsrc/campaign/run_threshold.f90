@@ -117,10 +117,10 @@ contains
       class(threshold_task_t), intent(in) :: self
 
       if (self%done_before > 0_int64) then
-         call self%log%line('  carried on after '//integer_text(self%outcome%traces)//' traces of the earlier run and '// &
+         call self%log%item('carried on', 'after '//integer_text(self%outcome%traces)//' traces of the earlier run and '// &
                             integer_text(size(self%outcome%points))//' values of those under way')
       else if (self%carry_on) then
-         call self%log%line('  there is no state of an earlier run; all is solved from the start')
+         call self%log%item('earlier run', 'has left no state; all is solved from the start')
       end if
       call self%log%detail('  '//integer_text(size(self%threshold%scan))//' values a trace, then halves down to '// &
                          integer_text(self%threshold%axis%count)//' places; two changes between neighbours of the scan that '// &
@@ -197,7 +197,7 @@ contains
          call place_files(results, summary_path(self%scene), error)
       end if
       if (allocated(error)) then
-         call self%log%line('  '//error%message)
+         call self%log%item('error', error%message)
       else if (self%is_cut) then
          call report_cut(self, keeps_earlier)
       else
@@ -242,13 +242,13 @@ contains
       !> Whether result and summary of an earlier run stand
       logical, intent(in) :: keeps_earlier
 
-      call task%log%line('  cut short after '//integer_text(task%outcome%traces)//' of '// &
+      call task%log%item('cut short', 'after '//integer_text(task%outcome%traces)//' of '// &
                          counted(int(task%threshold%traces%layout%scene_count), 'trace')//'; --resume goes on with these and '// &
                          counted(size(task%outcome%points), 'value')//' of the next, no result is written before')
       if (keeps_earlier) then
-         call task%log%line('  '//result_path(task%scene)//' and its summary are those of an earlier run')
+         call task%log%item('files', result_path(task%scene)//' and its summary are those of an earlier run')
       else
-         call task%log%line('  '//summary_path(task%scene))
+         call task%log%item('files', summary_path(task%scene)//', .state, .log')
       end if
    end subroutine report_cut
 
@@ -261,34 +261,32 @@ contains
       character(:), allocatable :: line
       integer(int64) :: counts(4)
 
-      line = '  '//counted(outcome%crossings, 'crossing')//'; '//integer_text(outcome%uncrossed)//' of '// &
+      line = integer_text(outcome%crossings)//'; '//integer_text(outcome%uncrossed)//' of '// &
              counted(threshold%traces%layout%scene_count, 'trace')//' without any'
-      if (scene%spectrum%verify) line = line//'; at '//counted(outcome%uncertain, 'crossing')// &
-                                         ' a side is not verified'
-      call log%line(line)
-      if (outcome%wide > 0_int64) call log%line('  the ends of '//counted(outcome%wide, 'crossing')//' are verified only '// &
-                                                'farther apart than requested: column width has the distance')
+      if (scene%spectrum%verify) line = line//'; at '//integer_text(outcome%uncertain)//' a side is not verified'
+      call log%item('crossings', line)
+      if (outcome%wide > 0_int64) call log%item('width', counted(outcome%wide, 'crossing')//' have ends that are verified '// &
+                                                'only farther apart than requested (width)')
       counts = end_counts(scene, threshold, outcome)
-      if (counts(1) > 0_int64) call log%line('  at '//integer_text(counts(2))//' of '//counted(counts(1), 'crossing')// &
-                                             ' either side is possible: motions go on beyond the change from rest (columns '// &
-                                             'last_below, last_above)')
-      if (counts(3) > 0_int64) call log%line('  at '//counted(counts(3), 'crossing')//' an end is that of a motion that does '// &
-                                             'not repeat, known to the width of a bracket, or is unknown (columns '// &
-                                             'motion_end_below, motion_end_above)')
-      if (counts(4) > 0_int64) call log%line('  '//integer_text(counts(4))//' of '//counted(outcome%uncrossed, 'trace')// &
-                                             ' without any have motions of another side beside those from rest, found from '// &
-                                             'other starts: from last_above to last_below')
+      if (counts(1) > 0_int64) call log%item('either side', 'possible at '//integer_text(counts(2))//' of '// &
+                                             counted(counts(1), 'crossing')//', beyond the change from rest (last_below, '// &
+                                             'last_above)')
+      if (counts(3) > 0_int64) call log%item('motion ends', 'unsure at '//counted(counts(3), 'crossing')// &
+                                             ': no repetition, known to a bracket, or unknown '// &
+                                             '(motion_end_below, _above)')
+      if (counts(4) > 0_int64) call log%item('other side', 'in '//integer_text(counts(4))//' of '// &
+                                             counted(outcome%uncrossed, 'trace')//' without a crossing, from other starts '// &
+                                             '(last_above to last_below)')
       if (sum(counts) > 0_int64 .and. scene%solver%starts > 1) &
-         call log%line('  '//counted(scene%solver%starts, 'start')//' do not prove that there are no others')
-      if (outcome%failed > 0_int64) call log%line('  scenes that failed are a kind of their own: where they begin is a '// &
-                                                  'crossing (columns status_below, status_above)')
+         call log%item('starts', integer_text(scene%solver%starts)//' do not prove that there are no other motions')
+      if (outcome%failed > 0_int64) call log%item('failed', 'a side of its own: where such scenes begin is a crossing '// &
+                                                  '(status_below, status_above)')
       ! Where there are more parts than traces, some have none.
       if (outcome%solved > 0_int64) &
          call log%detail('  '//integer_text(outcome%solved)//' scenes; a grid as fine has '// &
                        integer_text(nint(grid_scenes(scene, threshold), int64))//', '// &
                        short_text(grid_scenes(scene, threshold)/real(outcome%solved, dp), 3)//' times as many')
-      call log%line('  '//result_path(scene))
-      call log%line('  '//summary_path(scene))
+      call log%item('files', summary_path(scene)//', .rattle, .log')
    end subroutine report_ending
 
 end module run_threshold

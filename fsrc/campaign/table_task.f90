@@ -12,7 +12,7 @@ module table_task
    use output_lock, only: output_lock_t
    use output_place, only: claim_output_place, log_path, progress_path
    use ranks, only: abort_ranks, rank_count, share_number, this_rank, wait_for_ranks
-   use scene_report, only: law_sentence
+   use scene_report, only: law_sentence, report_notes
    use scene_types, only: scene_t
    use signals, only: caught_signal
    use text, only: counted
@@ -265,18 +265,13 @@ contains
       class(table_task_t), intent(in) :: task
       !> Of the lock; empty if there is none
       character(*), intent(in) :: warning
-      integer :: i
 
       call task%log%line(log_magic//program_version//', '//task%heading()//', '//law_sentence(task%scene)//'; '// &
                          counted(rank_count(), 'rank')//' of '//counted(omp_get_max_threads(), 'thread'))
-      do i = 1, size(task%scene%warnings)
-         call task%log%line('  '//task%scene%warnings(i)%text)
-      end do
-      do i = 1, size(task%warnings)
-         call task%log%line('  '//task%warnings(i)%text)
-      end do
+      call report_notes(task%log, task%scene%warnings)
+      call report_notes(task%log, task%warnings)
       call task%report_start()
-      if (len(warning) > 0) call task%log%line('  '//warning)
+      if (len(warning) > 0) call report_notes(task%log, [word_t(warning)])
    end subroutine report_opening
 
    !> --check of a task: however large its table is, this takes a few seconds.

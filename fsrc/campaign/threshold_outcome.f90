@@ -278,7 +278,7 @@ contains
       table(:point_numbers, 2 + done:) = table_of(outcome%points)
       call write_rows_of(state_path(scene), scene, threshold, table, error)
       if (.not. allocated(error)) call put_in_place(state_path(scene), error)
-      if (allocated(error)) call log%line('  warning: '//error%message)
+      if (allocated(error)) call log%item('warning', error%message)
       outcome%kept_at = wall_seconds()
    end subroutine save_outcome
 

@@ -12,6 +12,8 @@ module log_file
 
    !> First word of every log, by which one is known.
    character(*), parameter, public :: log_magic = 'rattle '
+   public :: labelled
+
    !> Width of the column of labels
    integer, parameter :: label_width = 17
 
@@ -105,9 +107,11 @@ contains
       if (self%to_terminal .and. .not. self%verbose) call put_line(labelled(label, text))
    end subroutine log_row
 
-   !> Text behind its label.
+   !> A line with a label: all labels stand in one column.
    pure function labelled(label, text) result(line)
+      !> What the line shows; empty for what belongs to the line before
       character(*), intent(in) :: label
+      !> What stands beside it
       character(*), intent(in) :: text
       character(:), allocatable :: line
 

@@ -4,7 +4,7 @@ module progress
    use file_system, only: is_terminal
    use engine, only: motion_watcher_t
    use kinds, only: dp
-   use log_file, only: log_t
+   use log_file, only: labelled, log_t
    use text, only: integer_text, short_text
    use text_output, only: has_turn, lock_texts, show_on_terminal, unlock_texts
    implicit none(type, external)
@@ -61,7 +61,7 @@ contains
       if (now - self%last < merge(terminal_interval, line_interval, self%on_terminal)) return
       self%last = now
       call lock_texts()
-      line = '  '//progress_words(self%unit, done, all, now - self%started)
+      line = labelled(self%unit, progress_words(done, all, now - self%started))
       if (.not. self%on_terminal) then
          call self%log%line(line)
       else if (.not. self%quiet .and. has_turn()) then
@@ -72,16 +72,15 @@ contains
    end subroutine period_done
 
    !> How far a run is, and how long it takes still.
-   pure function progress_words(unit, done, all, seconds) result(words)
-      !> What is counted
-      character(*), intent(in) :: unit
+   pure function progress_words(done, all, seconds) result(words)
+      !> What is solved, and what will be
       integer, intent(in) :: done
       integer, intent(in) :: all
       !> Since the run began [s]
       real(dp), intent(in) :: seconds
       character(:), allocatable :: words
 
-      words = integer_text(done)//' of '//integer_text(all)//' '//unit//' after '//short_text(seconds, 3)//' s, '// &
+      words = integer_text(done)//' of '//integer_text(all)//' after '//short_text(seconds, 3)//' s, '// &
               short_text(seconds*real(all - done, dp)/real(done, dp), 2)//' s left'
    end function progress_words
 

@@ -273,9 +273,9 @@ contains
       failed = 0
       select case (scene%task)
       case (task_film)
-         call run_film_task(scene, command%quiet, status, error)
+         call run_film_task(scene, command%quiet, command%verbose, status, error)
       case (task_sweep)
-         call run_sweep_task(scene, command%quiet, command%resume, status, failed, error)
+         call run_sweep_task(scene, command%quiet, command%verbose, command%resume, status, failed, error)
       case default
          call run_one_scene(scene, command%quiet, command%verbose, command%resume, judged, status, error)
          if (.not. is_success(status)) failed = 1

@@ -162,8 +162,7 @@ contains
       end do
       call summary%write(summary_path(gearbox), error)
       if (.not. allocated(error)) then
-         call log%detail('  '//summary_path(gearbox))
-         call log%row('files', summary_path(gearbox)//', .log')
+         call log%item('files', summary_path(gearbox)//', .log')
       end if
       call log%close()
    end subroutine write_table

@@ -29,11 +29,13 @@ module run_film
 contains
 
    !> Run a film task and write its files.
-   subroutine run_film_task(scene, quiet, status, error)
+   subroutine run_film_task(scene, quiet, verbose, status, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Nothing to the terminal
       logical, intent(in) :: quiet
+      !> All of the log to the terminal
+      logical, intent(in) :: verbose
       !> Status of scene_status
       integer, intent(out) :: status
       !> Set if a file could not be written
@@ -46,7 +48,7 @@ contains
 
       status = status_complete
       started = wall_seconds()
-      call log%open(log_path(scene), quiet, error)
+      call log%open(log_path(scene), quiet, error, verbose)
       if (allocated(error)) return
       contact = contact_of(scene)
       call report_head(log, scene, law_sentence(scene))
@@ -57,13 +59,12 @@ contains
       call place_files(result_files(scene), summary_path(scene), error)
       if (allocated(error)) status = status_not_written
       if (allocated(error)) then
-         call log%line('  '//error%message)
+         call log%item('error', error%message)
       else
-         call log%line('  '//integer_text(points)//' points in '//short_text(wall_seconds() - started, 3)//' s: '// &
+         call log%item('points', integer_text(points)//' in '//short_text(wall_seconds() - started, 3)//' s: '// &
                        status_sentence(status))
-         call log%line('  '//result_path(scene))
-         if (scene%points%compute(compute_profile)) call log%line('  '//profiles_path(scene))
-         call log%line('  '//summary_path(scene))
+         call log%item('files', summary_path(scene)//', .rattle'// &
+                       trim(merge(', .profiles.rattle', '                  ', scene%points%compute(compute_profile)))//', .log')
       end if
       call log%close()
    end subroutine run_film_task

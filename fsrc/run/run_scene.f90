@@ -121,10 +121,10 @@ contains
       if (allocated(error)) return
       call report_start(log, scene, judged)
       if (state%orbit > 0) then
-         call log%line('  found steady by the earlier run; its periodic motion is solved again from period '// &
+         call log%item('earlier run', 'found steady; its periodic motion is solved again from period '// &
                        integer_text(state%periods))
       else if (state%periods > 0) then
-         call log%line('  carried on from period '//integer_text(state%periods))
+         call log%item('carried on', 'from period '//integer_text(state%periods))
       end if
       call recorder%open(scene, prepared%resolved%problem, result_path(scene), state%periods, error)
       if (.not. allocated(error)) then
@@ -149,7 +149,7 @@ contains
          call recorder%close(write_error)
          if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
          if (.not. allocated(error) .and. is_chosen_in_nodes .and. nodes_stopped(judged%status)) then
-            call log%line('  '//status_name(judged%status)//': the film is solved by the closure instead')
+            call log%item('ended', status_name(judged%status)//': the film is solved by the closure instead')
             call log%close()
             return
          end if
@@ -173,7 +173,7 @@ contains
       end if
       if (allocated(error)) judged%status = status_not_written
       status = judged%status
-      if (allocated(error)) call log%line('  '//error%message)
+      if (allocated(error)) call log%item('error', error%message)
       call log%close()
    end subroutine run_by_its_model
 

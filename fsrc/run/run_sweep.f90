@@ -22,6 +22,7 @@ module run_sweep
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
+   use regime_check, only: outside_model
    use scene_report, only: law_sentence, report_head
    use scene_solution, only: solve_and_judge
    use scene_status, only: is_success, status_complete, status_interrupted, status_not_written, status_sentence
@@ -48,11 +49,13 @@ module run_sweep
 contains
 
    !> Run a sweep and write its files.
-   subroutine run_sweep_task(scene, quiet, carry_on, status, failed, error)
+   subroutine run_sweep_task(scene, quiet, verbose, carry_on, status, failed, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Nothing to the terminal
       logical, intent(in) :: quiet
+      !> All of the log to the terminal
+      logical, intent(in) :: verbose
       !> Whether an earlier run is to be carried on: it is solved anew, and the log says where it was cut
       logical, intent(in) :: carry_on
       !> Status of scene_status
@@ -76,7 +79,7 @@ contains
       status = status_complete
       failed = 0
       started = wall_seconds()
-      call log%open(log_path(scene), quiet, error)
+      call log%open(log_path(scene), quiet, error, verbose)
       if (allocated(error)) return
       call report_head(log, scene, 'sweep of '//integer_text(size(scene%sweep%values))//' motions, '//law_sentence(scene))
       if (carry_on) call report_cut(log, scene)
@@ -90,7 +93,7 @@ contains
          ! A motion under way when the signal came may be half judged.
          if (caught_signal() /= 0) then
             status = status_interrupted
-            call log%line('  cut after '//integer_text(i - 1)//' of '//counted(size(scene%sweep%values), 'motion'))
+            call log%item('cut', 'after '//integer_text(i - 1)//' of '//counted(size(scene%sweep%values), 'motion'))
             exit
          end if
          if (allocated(error)) exit
@@ -108,14 +111,12 @@ contains
       call place_files([word_t(result_path(scene))], summary_path(scene), error)
       if (allocated(error)) status = status_not_written
       if (allocated(error)) then
-         call log%line('  '//error%message)
+         call log%item('error', error%message)
       else
-         if (beyond_model > 0) call log%line('  warning: '//counted(beyond_model, 'motion')//' outside the range of the '// &
-            'model: films above a tenth of the radius or below 1 nm (column model_limit)')
-         call log%line('  '//counted(size(scene%sweep%values), 'motion')//' in '//short_text(wall_seconds() - started, 3)// &
+         call log%item('motions', integer_text(size(scene%sweep%values))//' in '//short_text(wall_seconds() - started, 3)// &
                        ' s: '//ending_sentence(scene, failed, status))
-         call log%line('  '//result_path(scene))
-         call log%line('  '//summary_path(scene))
+         call log%item('files', summary_path(scene)//', .rattle, .log')
+         if (beyond_model > 0) call log%item('warning', outside_model(counted(beyond_model, 'motion')))
       end if
       call log%close()
    end subroutine run_sweep_task
@@ -140,8 +141,8 @@ contains
 
       call earlier%open(result_path(scene), error)
       if (allocated(error)) return
-      if (earlier%row_count < size(scene%sweep%values)) call log%line( &
-         '  the earlier run was cut after '//integer_text(earlier%row_count)//' of '// &
+      if (earlier%row_count < size(scene%sweep%values)) call log%item('earlier run', &
+         'was cut after '//integer_text(earlier%row_count)//' of '// &
          counted(size(scene%sweep%values), 'motion')//'; every motion begins with the one before, so all are solved again')
       call earlier%close()
    end subroutine report_cut

@@ -29,17 +29,21 @@ module scene_report
    use scene_types, only: drag_computed, method_newmark, model_published, scene_t, speed_mean, task_film
    use text, only: counted, error_text, integer_text, short_text, spaced
    use version, only: program_version
+   use word_list, only: word_t
    implicit none(type, external)
    private
 
+   !> What a note on an input begins with where it is a warning
+   character(*), parameter :: note_label = 'warning: '
    !> Significant digits of films and accelerations
    integer, parameter :: digits_of_extremes = 5
    !> Acceleration of level 0 dB, by ISO 1683 [m/s2]
    real(dp), parameter :: level_reference = 1.0e-6_dp
 
-   public :: acceleration_in_short, acceleration_words, deflects_in_words, film_force_in_short, has_coarse_series, law_sentence, &
-             operating_point, report_ending, report_head, report_start, resolved_lines, samples_key, speed_meaning, &
-             steel_stiffness_in_words, value_words, verdict_in_short, verdict_sentence
+   public :: acceleration_in_short, acceleration_words, deflects_in_words, film_force_in_short, has_coarse_series, is_warning, &
+             law_sentence, note_in_short, operating_point, report_ending, report_head, report_notes, report_start, &
+             resolved_lines, samples_key, speed_meaning, steel_stiffness_in_words, value_words, verdict_in_short, &
+             verdict_sentence
 
 contains
 
@@ -51,13 +55,45 @@ contains
       type(scene_t), intent(in) :: scene
       !> What will be solved
       character(*), intent(in) :: words
-      integer :: i
 
       call log%line(log_magic//program_version//', scene '//trim(scene%name)//': '//words)
-      do i = 1, size(scene%warnings)
-         call log%line('  '//scene%warnings(i)%text)
-      end do
+      call report_notes(log, scene%warnings)
    end subroutine report_head
+
+   !> Notes on an input: all of them for the log, in short for the terminal.
+   subroutine report_notes(log, notes)
+      !> Log of the task
+      type(log_t), intent(in) :: log
+      !> The notes
+      type(word_t), intent(in) :: notes(:)
+      integer :: i
+
+      do i = 1, size(notes)
+         call log%detail('  '//notes(i)%text)
+         call log%row(trim(merge('warning', 'input  ', is_warning(notes(i)%text))), note_in_short(notes(i)%text))
+      end do
+   end subroutine report_notes
+
+   !> Whether a note on an input warns of something.
+   pure logical function is_warning(note)
+      character(*), intent(in) :: note
+
+      is_warning = index(note, note_label) == 1
+   end function is_warning
+
+   !> A note behind its label; one that warns of nothing is cut at a blank where it is long, as the log has the rest.
+   pure function note_in_short(note) result(words)
+      character(*), intent(in) :: note
+      character(:), allocatable :: words
+      integer, parameter :: longest = 87
+
+      words = note
+      if (is_warning(note)) then
+         words = note(len(note_label) + 1:)
+      else if (len(words) > longest) then
+         words = words(:index(words(:longest), ' ', back=.true.))//'...'
+      end if
+   end function note_in_short
 
    !> Head of a motion: what will be solved, and what is known beforehand.
    subroutine report_start(log, scene, judged)

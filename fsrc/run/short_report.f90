@@ -16,8 +16,8 @@ module short_report
       quantity_orbit_stability, quantity_steady_film, quantity_table, quantity_word
    use rattle_class, only: class_irregular, class_irregular_so_far
    use regime_check, only: fitting_law, gap_both, gap_too_narrow, gap_too_wide, outside_closure
-   use scene_report, only: acceleration_in_short, deflects_in_words, film_force_in_short, has_coarse_series, operating_point, &
-      samples_key, steel_stiffness_in_words, value_words, verdict_in_short
+   use scene_report, only: acceleration_in_short, deflects_in_words, film_force_in_short, has_coarse_series, is_warning, &
+      note_in_short, operating_point, samples_key, steel_stiffness_in_words, value_words, verdict_in_short
    use scene_status, only: is_success, status_name, status_sentence
    use scene_types, only: scene_t
    use text, only: counted, error_text, integer_text, short_text
@@ -27,8 +27,6 @@ module short_report
 
    !> Lines of warnings: fifteen in all, less the twelve that a scene has else; of a gear pair its drag takes one more.
    integer, parameter :: most_warnings = 3
-   !> What a note on the input begins with where it is a warning
-   character(*), parameter :: note_label = 'warning: '
    !> Significant digits of films and accelerations, as in the log, and of loads and velocities
    integer, parameter :: digits_of_extremes = 5, digits = 4
 
@@ -221,13 +219,15 @@ contains
       ! What is left over is what matters least.
       do i = 1, size(scene%warnings)
          associate (note => scene%warnings(i)%text)
-            if (index(note, note_label) == 1) call add(note(len(note_label) + 1:))
+            if (is_warning(note)) call add(note_in_short(note))
          end associate
       end do
       if (judged%judged) call add_doubts()
       certain = size(warnings)
       do i = 1, size(scene%warnings)
-         if (index(scene%warnings(i)%text, note_label) /= 1) call add(in_one_line(scene%warnings(i)%text))
+         associate (note => scene%warnings(i)%text)
+            if (.not. is_warning(note)) call add(note_in_short(note))
+         end associate
       end do
       shown = size(warnings)
       most = most_warnings - merge(1, 0, scene%gear%given)
@@ -278,15 +278,5 @@ contains
       end subroutine add
 
    end subroutine report_warnings
-
-   !> A note on the input that warns of nothing, cut at a blank where it is long, as the log has the rest.
-   pure function in_one_line(note) result(words)
-      character(*), intent(in) :: note
-      character(:), allocatable :: words
-      integer, parameter :: longest = 87
-
-      words = note
-      if (len(words) > longest) words = words(:index(words(:longest), ' ', back=.true.))//'...'
-   end function in_one_line
 
 end module short_report

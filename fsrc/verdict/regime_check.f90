@@ -44,7 +44,7 @@ module regime_check
    integer, parameter, public :: within_closure = 0, outside_closure = 1
 
    public :: check_regime, steady_alpha_p, regime_sentence, fitting_law, closure_range, closure_range_sentence, model_limit, &
-             model_limit_sentence
+             model_limit_sentence, outside_model
 
 contains
 
@@ -187,5 +187,14 @@ contains
          sentence = ''
       end select
    end function model_limit_sentence
+
+   !> That some motions of a table are beyond the limits.
+   pure function outside_model(which) result(words)
+      !> How many: '3 scenes'
+      character(*), intent(in) :: which
+      character(:), allocatable :: words
+
+      words = which//' outside the range of the model: films above a tenth of the radius or below 1 nm (model_limit)'
+   end function outside_model
 
 end module regime_check

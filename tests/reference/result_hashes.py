@@ -140,7 +140,7 @@ TIMES = (
     (re.compile(r"rattle \d+\.\d+\.\d+"), "rattle VERSION"),
 )
 # What is printed now and then, and how long a check expects a campaign to take.
-PASSING_LINES = re.compile(r" +\d+ of \d+ .*(a second|s left).*|! core time.*")
+PASSING_LINES = re.compile(r" +\w+ +\d+ of \d+.*(a second|s left).*|! core time.*")
 
 
 @dataclass(frozen=True)

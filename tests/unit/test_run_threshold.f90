@@ -85,13 +85,14 @@ contains
       call checks%check(.not. path_exists(state_path(scene)), 'a state that was carried on to its end is gone')
       reported = content_of(log_path(scene))
       summary = content_of(summary_path(scene))
-      call expect('carried on after '//integer_text(traces - 1_int64)//' traces of the earlier run and 5 values of those under way')
+      call expect('carried on       after '//integer_text(traces - 1_int64)// &
+                  ' traces of the earlier run and 5 values of those under way')
       call expect('5 values a trace, then halves down to 33 places;')
-      call expect(integer_text(solved)//' of '//integer_text(solved)//' scenes,')
-      call expect('  '//counted(crossings, 'crossing')//'; '//integer_text(uncrossed)//' of '//counted(traces, 'trace')// &
-                  ' without any; at '//counted(uncertain, 'crossing')//' a side is not verified'//line_feed)
-      call expect('the ends of '//counted(wide, 'crossing')//' are verified only farther apart than requested')
-      call expect('scenes that failed are a kind of their own')
+      call expect('scenes           '//integer_text(solved)//' of '//integer_text(solved)//',')
+      call expect('crossings        '//integer_text(crossings)//'; '//integer_text(uncrossed)//' of '// &
+                  counted(traces, 'trace')//' without any; at '//integer_text(uncertain)//' a side is not verified'//line_feed)
+      call expect(counted(wide, 'crossing')//' have ends that are verified only farther apart than requested')
+      call expect('failed           a side of its own')
       call expect('  '//integer_text(solved)//' scenes; a grid as fine has '//integer_text(nint(grid, int64))// &
                   ', 3.00 times as many'//line_feed)
       call hold('traces', integer_text(traces))

@@ -227,7 +227,7 @@ def test_log_and_summary_count_what_is_not_verified(run, scene_text, tmp_path: P
     assert 0 < failing < 36
     log = path.with_suffix(".log").read_text()
     assert f", 0 failed, {failing} not verified" in log
-    assert f"{failing} of 36 scenes not verified" in log
+    assert f"not verified     {failing} of 36 scenes: " in log
     assert summary_of(path.with_suffix(".summary.nml"))["scenes_not_verified_in_this_run"] == failing
     plain = solve(run, tmp_path, "--set", "campaign.record='rattle_class'", name="plain")
     assert "verified" not in plain.with_suffix(".log").read_text()
@@ -449,7 +449,7 @@ def test_finished_scenes_are_not_solved_again(run, folder: Path) -> None:
     solve(run, folder)
     ended = run("--resume", "--output", "whole", "scene.nml", cwd=folder)
     assert ended.returncode == 0
-    assert "900 of 900 scenes, 0 a second" in ended.stdout
+    assert "900 of 900, 0 a second" in ended.stdout
     reported = f90nml.read(folder / "whole" / "scene.progress.nml")["summary"]
     assert (reported["scenes"], reported["scenes_done"], reported["scenes_failed"]) == (900, 900, 0)
 

@@ -114,7 +114,7 @@ def test_one_long_run_equals_three_chained(method: str, model: str, run, scene_t
         (folder / "scene.nml").write_text(canonical(scene_text, law, model, **solver_of(method)))
         for periods in (17, 20, 60):
             reported = carry_on(run, folder, "--set", f"solver.periods={periods}")
-        assert "carried on from period 4" in reported
+        assert "carried on       from period 4" in reported
         assert run("--output", "long", "scene.nml", cwd=folder).returncode == 0
         same(folder)
 
@@ -154,7 +154,7 @@ def test_nothing_that_is_carried_over_is_lost(
     (tmp_path / "scene.nml").write_text(canonical(scene_text, **solver_of(method)))
     for periods in (17, 20, 60):
         reported = carry_on(run, tmp_path, "--set", setting, "--set", f"solver.periods={periods}")
-    assert "carried on from period 4" in reported
+    assert "carried on       from period 4" in reported
     assert run("--output", "long", "--set", setting, "scene.nml", cwd=tmp_path).returncode == 0
     assert package.read(tmp_path / "long" / "scene.state")[carried][0] != 0.0
     same(tmp_path)
@@ -197,7 +197,7 @@ def test_series_that_was_not_closed_is_carried_on(method: str, run, scene_text, 
     content = bytearray(series.read_bytes())
     content[24:32] = (-1).to_bytes(8, "little", signed=True)
     series.write_bytes(content + bytes(1000))
-    assert "carried on from period 44" in carry_on(run, tmp_path, "--set", "solver.periods=70")
+    assert "carried on       from period 44" in carry_on(run, tmp_path, "--set", "solver.periods=70")
     assert run("--output", "long", "--set", "solver.periods=70", "scene.nml", cwd=tmp_path).returncode == 0
     same(tmp_path)
 
@@ -252,9 +252,9 @@ def test_steady_run_in_pieces_equals_one(method: str, film: str, run, scene_text
     for periods in (8, 12, 15):
         carry_on(run, tmp_path, "--set", f"solver.periods={periods}")
     reported = carry_on(run, tmp_path, "--set", "solver.time_limit=1e-9", code=1)
-    assert "carried on from period" in reported
+    assert "carried on       from period" in reported
     assert summary(tmp_path / "chained")["status"] == "time_limit"
-    assert "carried on from period" in carry_on(run, tmp_path)
+    assert "carried on       from period" in carry_on(run, tmp_path)
     assert run("--output", "long", "scene.nml", cwd=tmp_path).returncode == 0
     long = summary(tmp_path / "long")
     assert long["status"] == "steady" and 15 < long["periods_solved"] < 60
@@ -269,7 +269,7 @@ def test_steady_run_is_finished_for_good(method: str, run, scene_text, tmp_path:
     first = summary(tmp_path / "chained")
     before = films(tmp_path / "chained")
     reported = carry_on(run, tmp_path, "--set", "solver.periods=5000")
-    assert "found steady by the earlier run" in reported
+    assert "earlier run      found steady" in reported
     assert first["status"] == "steady"
     after = summary(tmp_path / "chained")
     # The series says how many periods were asked for.
@@ -295,7 +295,7 @@ def test_orbit_must_fit_into_the_longer_run(run, scene_text, tmp_path: Path) -> 
     assert ended.returncode == 2
     assert f"is at period {start}; the window of this run would begin before" in ended.stderr
     reported = carry_on(run, tmp_path, "--set", f"solver.periods={end}")
-    assert "found steady by the earlier run" in reported
+    assert "earlier run      found steady" in reported
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -306,7 +306,7 @@ def test_interrupted_search_goes_on(method: str, rattle: Path, run, scene_text, 
     cut = terminated(rattle, tmp_path, after=0.05)
     assert cut["status"] == "interrupted" and 0 < cut["periods_solved"] < periods
     reported = carry_on(run, tmp_path, output="cut")
-    assert f"carried on from period {cut['periods_solved']}" in reported
+    assert f"carried on       from period {cut['periods_solved']}" in reported
     assert run("--output", "whole", "scene.nml", cwd=tmp_path).returncode == 0
     same(tmp_path, "scene.state", one="cut", other="whole")
 
@@ -318,7 +318,7 @@ def test_steady_run_goes_on_beyond_its_orbit(method: str, run, scene_text, tmp_p
     carry_on(run, tmp_path)
     on = ["--set", "solver.until=periods"]
     reported = carry_on(run, tmp_path, *on)
-    assert "carried on from period" in reported
+    assert "carried on       from period" in reported
     assert run("--output", "long", *on, "scene.nml", cwd=tmp_path).returncode == 0
     same(tmp_path)
     before = digest(tmp_path / "chained" / "scene.state")
@@ -376,7 +376,7 @@ def assert_resume_is_refused(run, results: Path, *options: str, word: str) -> No
 
 @pytest.mark.parametrize("method", METHODS)
 def test_resume_refuses_the_state_of_an_earlier_version(method: str, run, scene_text, tmp_path: Path) -> None:
-    """A state that lacks what a run is carried on from is reported from one that holds it."""
+    """A state that lacks what a run is carried on       from is reported from one that holds it."""
     (tmp_path / "scene.nml").write_text(canonical(scene_text, **solver_of(method)))
     assert run("scene.nml", cwd=tmp_path).returncode == 0
     path = tmp_path / "results" / "scene.state"

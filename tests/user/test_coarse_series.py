@@ -243,7 +243,7 @@ def test_campaigns_and_sweeps_count_what_the_model_cannot_mean(run, scene_text, 
     beyond = int((result["model_limit"] > 0).sum())
     assert result["model_limit"][0] == 3 and beyond >= 1
     scenes = "1 scene" if beyond == 1 else f"{beyond} scenes"
-    assert f"warning: {scenes} outside the range of the model" in reported.stdout
+    assert f"warning          {scenes} outside the range of the model" in reported.stdout
     assert (result["sampling_sufficient"] == 1).all() and "not resolved" not in reported.stdout
     # The true class and first harmonic of the impact, by an independent solver.
     assert result["rattle_class"][0] == 3 and result["harmonic_1"][0] == pytest.approx(290.75366, rel=1e-6)
@@ -269,5 +269,6 @@ def test_a_film_that_grows_too_wide_and_never_too_thin_counts(run, scene_text, t
     swept = package.read(tmp_path / "results" / "sweep.rattle")
     wide = swept["film_maximum"] > 0.1 * 0.0127
     assert (swept["film_minimum"] > 1e-9).all() and 0 < wide.sum() < wide.size
-    assert f"warning: {counted(int(wide.sum()), 'motion')} outside the range of the model" in reported.stdout
+    warned = f"warning          {counted(int(wide.sum()), 'motion')} outside the range of the model"
+    assert warned in reported.stdout
     assert summary_of(tmp_path / "results" / "sweep.summary.nml")["motions_failed"] == 0

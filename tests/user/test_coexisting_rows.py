@@ -147,20 +147,20 @@ def test_threads_parts_and_kills_give_the_same_bytes(rattle: Path, run, folder: 
 
 
 def test_log_and_summary_tell_of_several_motions(run, folder: Path) -> None:
-    """The last line of the log says how many scenes, and that more starts might find more."""
+    """A line of the log says how many scenes, and that more starts might find more."""
     path = solve(run, folder, *FEW)
     several = int((package.read(path)["motions"] > 1.0).sum())
-    last = path.with_suffix(".log").read_text().splitlines()[-1].strip()
     absence = "do not prove that there are no others"
-    assert last == f"{several} of 45 scenes have several motions; 3 starts and neighbours {absence}"
+    line = f"  motions          several at {several} of 45 scenes; 3 starts and neighbours {absence}"
+    assert line in path.with_suffix(".log").read_text().splitlines()
     assert summary_of(path.with_suffix(".summary.nml"))["scenes_with_several_motions_in_this_run"] == several
     path = solve(run, folder, *FEW, "--set", "campaign.neighbours=F", "--set", "solver.starts=5", name="five")
     assert f"; 5 starts {absence}" in path.with_suffix(".log").read_text()
     path = solve(run, folder, *FEW, "--set", "solver.starts=1", name="alone")
-    assert "several motions" not in path.with_suffix(".log").read_text()
+    assert "several at" not in path.with_suffix(".log").read_text()
     quiet = ("--set", "campaign.record='rattle_class'")
     path = solve(run, folder, *FEW, *quiet, name="unasked")
-    assert "several motions" not in path.with_suffix(".log").read_text()
+    assert "several at" not in path.with_suffix(".log").read_text()
 
 
 def test_a_damped_contact_has_one_start(run, folder: Path) -> None:

@@ -48,6 +48,15 @@ def files(path: Path) -> list[str]:
     ]
 
 
+def item(label: str, text: str) -> str:
+    """A line with a label."""
+    return f"  {label:17}{text}"
+
+
+def files_of_table(path: Path) -> str:
+    return item("files", f"{path.with_suffix('.summary.nml')}, .rattle, .log")
+
+
 def um(length: float, digits: int) -> str:
     return f"{short(1e6 * length, digits)} um"
 
@@ -419,7 +428,7 @@ def test_the_log_of_a_gearbox_is_its_table(run, repository, tmp_path, change, co
     head, point, heads, units, *rows, uncorrelated, in_phase, words, relative, file = lines
     assert head == f"rattle {table['program_version']}, gearbox box: {len(table['gears'])} pairs"
     of_a_pair = (tmp_path / "box.4th.log").read_text().splitlines()
-    assert point.removeprefix("  operating point") in of_a_pair
+    assert point == item("operating point", of_a_pair[1].strip())
     cells = [[cell for cell in re.split("  +", row.strip()) if cell] for row in rows]
     assert cells == [reported_by_the_table(gear, summary) for gear, summary in ranked]
     assert tuple(re.split("  +", heads.strip())) == HEADS and tuple(re.split("  +", units.strip())) == UNITS
@@ -434,7 +443,7 @@ def test_the_log_of_a_gearbox_is_its_table(run, repository, tmp_path, change, co
     powers = [summary.get("dissipated_power", np.nan) for summary in table["gears"].values()]
     failed = sum(summary["status"] not in SUCCESSES for summary in table["gears"].values())
     assert table["pairs"] == len(forces) and table["pairs_failed"] == failed and (failed > 0) == (code == 1)
-    assert file == f"  {tmp_path}/box.summary.nml"
+    assert file == item("files", f"{tmp_path}/box.summary.nml, .log")
     assert words == f"  {table['film_force_text']}"
     assert relative == f"  peak and rms of the acceleration {RELATIVE}"
     sums = ("film_force_rms_uncorrelated", "film_force_rms_in_phase", "dissipated_power")
@@ -465,10 +474,8 @@ def test_the_log_of_a_film_task_is_its_summary(solve, repository):
         log_of(path),
         [
             f"rattle {rattle.version}, scene film: film task",
-            f"  {rows} points in {ANY} s: {summary['status_text']}",
-            f"  {path}",
-            f"  {path.with_suffix('.profiles.rattle')}",
-            f"  {path.with_suffix('.summary.nml')}",
+            item("points", f"{rows} in {ANY} s: {summary['status_text']}"),
+            item("files", f"{path.with_suffix('.summary.nml')}, .rattle, .profiles.rattle, .log"),
         ],
     )
 
@@ -508,9 +515,10 @@ def test_the_log_of_a_sweep_is_its_rows(solve, scene_text, key, first, last, fai
     )
     beyond = int((result["model_limit"] > 0).sum()) if "model_limit" in result else None
     assert (summary["motions"], summary["motions_failed"]) == (result.row_count, failed)
-    warning = (
-        f"  warning: {ANY if beyond is None else beyond} motions outside the range of the model: films "
-        "above a tenth of the radius or below 1 nm (column model_limit)"
+    warning = item(
+        "warning",
+        f"{ANY if beyond is None else beyond} motions outside the range of the model: films above a tenth of "
+        "the radius or below 1 nm (model_limit)",
     )
     found = log_of(path)
     assert_reported(
@@ -522,9 +530,9 @@ def test_the_log_of_a_sweep_is_its_rows(solve, scene_text, key, first, last, fai
                 if exact
                 else "published iso-viscous film (35), rupture angle pi/2"
             ),
-            warning if "outside the range" in found[1] else None,
-            f"  {result.row_count} motions in {ANY} s: {summary['status_text']}",
-            *files(path),
+            item("motions", f"{result.row_count} in {ANY} s: {summary['status_text']}"),
+            files_of_table(path),
+            warning if "outside the range" in found[-1] else None,
         ],
     )
 
@@ -567,27 +575,44 @@ def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, change
         [line for line in found if " s left, " not in line],
         [
             f"rattle {rattle.version}, campaign {name}: {count} scenes, {law}; 1 rank of 2 threads",
-            f"  {count} of {count} scenes, {ANY} a second, {failed} failed, {doubts} not verified",
-            f"  warning: {counted(beyond, 'scene')} outside the range of the model: films above a tenth of "
-            "the radius or below 1 nm (column model_limit)"
-            if beyond
+            item("scenes", f"{count} of {count}, {ANY} a second, {failed} failed, {doubts} not verified"),
+            item(
+                "not verified",
+                f"{doubts} of {tested} scenes: a tighter solution has another class, or comes close to a "
+                "limit (verified)",
+            )
+            if doubts
             else None,
-            f"  warning: the harmonics of {counted(coarse, 'scene')} are not resolved (column "
-            "sampling_sufficient); raise campaign.samples_per_period"
-            if coarse
-            else None,
-            f"  {doubts} of {tested} scenes not verified: solved again, tighter, the class is another "
-            "or close to a limit (column verified)",
-            f"  {counted(irregular, 'scene')} irregular: their numbers are those of 100 periods or more, "
-            "with standard errors (rattle_class, acceleration_rms_error)"
+            item(
+                "irregular",
+                f"{counted(irregular, 'scene')}: numbers of 100 periods or more, with standard errors "
+                "(acceleration_rms_error)",
+            )
             if irregular
             else None,
-            f"  {counted(open_ended, 'scene')} irregular so far: no repetition, and no Lyapunov exponent "
-            "that is surely positive (rattle_class)"
+            item(
+                "irregular so far",
+                f"{counted(open_ended, 'scene')}: no repetition, no Lyapunov exponent that is surely "
+                "positive",
+            )
             if open_ended
             else None,
-            f"  the longest: scene {ANY}, {ANY} steps",
-            *files(path),
+            item("longest", f"scene {ANY}, {ANY} steps"),
+            files_of_table(path),
+            item(
+                "warning",
+                f"{counted(beyond, 'scene')} outside the range of the model: films above a tenth of the "
+                "radius or below 1 nm (model_limit)",
+            )
+            if beyond
+            else None,
+            item(
+                "warning",
+                f"harmonics of {counted(coarse, 'scene')} are not resolved (sampling_sufficient); raise "
+                "campaign.samples_per_period",
+            )
+            if coarse
+            else None,
         ],
     )
 
@@ -630,27 +655,45 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
             f"  then the motions of both sides, from {counted(starts, 'start')}, are followed along "
             f"{given['key']} to where they end; in a trace without a crossing these starts are tried at both "
             "ends and in the middle",
-            f"  {summary['scenes']} of {summary['scenes']} scenes, {ANY} a second, "
-            f"{summary['scenes_failed']} failed",
-            f"  {counted(summary['crossings'], 'crossing')}; {without} of {counted(lines, 'trace')} without "
-            f"any; at {counted(doubts, 'crossing')} a side is not verified",
-            f"  the ends of {counted(wide, 'crossing')} are verified only farther apart than requested: "
-            "column width has the distance"
+            item(
+                "scenes",
+                f"{summary['scenes']} of {summary['scenes']}, {ANY} a second, "
+                f"{summary['scenes_failed']} failed",
+            ),
+            item(
+                "crossings",
+                f"{summary['crossings']}; {without} of {counted(lines, 'trace')} without any; at {doubts} a "
+                "side is not verified",
+            ),
+            item(
+                "width",
+                f"{counted(wide, 'crossing')} have ends that are verified only farther apart than requested "
+                "(width)",
+            )
             if wide
             else None,
-            f"  at {summary['crossings_either']} of {counted(followed, 'crossing')} either side is possible: "
-            "motions go on beyond the change from rest (columns last_below, last_above)",
-            f"  at {counted(unsure, 'crossing')} an end is that of a motion that does not repeat, "
-            "known to the width of a bracket, or is unknown (columns motion_end_below, motion_end_above)"
+            item(
+                "either side",
+                f"possible at {summary['crossings_either']} of {counted(followed, 'crossing')}, beyond the "
+                "change from rest (last_below, last_above)",
+            ),
+            item(
+                "motion ends",
+                f"unsure at {counted(unsure, 'crossing')}: no repetition, known to a bracket, or unknown "
+                "(motion_end_below, _above)",
+            )
             if unsure
             else None,
-            f"  {others} of {counted(without, 'trace')} without any have motions of another side beside "
-            "those from rest, found from other starts: from last_above to last_below"
+            item(
+                "other side",
+                f"in {others} of {counted(without, 'trace')} without a crossing, from other starts "
+                "(last_above to last_below)",
+            )
             if others
             else None,
-            f"  {counted(starts, 'start')} do not prove that there are no others",
+            item("starts", f"{starts} do not prove that there are no other motions"),
             f"  {summary['scenes']} scenes; a grid as fine has {int(grid)}, "
             f"{short(grid / summary['scenes'], 3)} times as many",
-            *files(path),
+            files_of_table(path),
         ],
     )

@@ -157,7 +157,7 @@ def test_campaigns_and_gearboxes_tell_it(run, tmp_path: Path) -> None:
     assert ended.returncode == 0, ended.stderr
     (warning,) = warnings_of(ended.stdout)
     summary = package.read_summary(tmp_path / "results" / "two.summary.nml")
-    assert warning.strip() in summary["input_warnings"]
+    assert re.sub("^ *warning +", "warning: ", warning) in summary["input_warnings"]
     assert summary["acceleration_meaning"] == "relative to the shaft, along the line of action"
     said = "28.07 deg if it was meant in rad."
     page = tmp_path / "page.html"

@@ -94,7 +94,7 @@ def test_a_run_that_is_carried_on_is_that_of_one_long_run(nodes: int, run, tmp_p
             number = f"solver.periods={count}"
             ended = run(*common, "--set", number, "--resume", "--output", folder, "one.nml", cwd=tmp_path)
             assert ended.returncode == 0, ended.stderr
-    assert "carried on from period 3" in ended.stdout
+    assert "carried on       from period 3" in ended.stdout
     whole, parts = (summary_of(tmp_path / folder / "one.summary.nml") for folder in ("whole", "parts"))
     for name in (
         "film_minimum",
@@ -137,7 +137,7 @@ def test_a_run_until_steady_that_is_carried_on_is_that_of_one_long_run(
         reported.append(summary_of(tmp_path / folder / "one.summary.nml"))
     assert (
         reported[0]["status"] == "steady"
-        and "carried on from" in ended.stdout
+        and "carried on       from" in ended.stdout
         or "found steady" in ended.stdout
     )
     for name in (

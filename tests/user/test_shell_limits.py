@@ -362,5 +362,5 @@ def test_a_campaign_names_its_longest_scene(run, scene_text, tmp_path: Path) -> 
     (tmp_path / "scene.nml").write_text(TASKS["campaign"](scene_text))
     assert run("--quiet", "scene.nml", cwd=tmp_path).returncode == 0
     rows = read(tmp_path / "results" / "scene.rattle").row_count
-    words = (tmp_path / "results" / "scene.log").read_text().partition("the longest: scene ")[2].split()
+    words = (tmp_path / "results" / "scene.log").read_text().partition("longest          scene ")[2].split()
     assert 1 <= int(words[0].rstrip(",")) <= rows and int(words[1]) > 0

@@ -13,6 +13,7 @@ import rattle
 
 MOST_LINES, WIDEST = 15, 110
 LABEL = slice(2, 19)
+ALIGNED = r"  \S.{15} \S"
 # Newmark's method of 32 steps a period, whose false harmonics this input is about.
 COARSE_ON_PURPOSE = "creep_false_harmonic"
 READY = (
@@ -54,7 +55,7 @@ def test_a_scene_has_few_aligned_lines_the_verdict_first(shown) -> None:
         assert len(lines) <= MOST_LINES and max(map(len, lines)) <= WIDEST, "\n".join(lines)
         if ", gearbox " in lines[0]:
             continue
-        assert all(re.match(r"  \S.{15} \S", line) for line in lines[1:])
+        assert all(re.match(ALIGNED, line) for line in lines[1:])
         labels = labels_of(lines)
         wanted = LABELS_IN_A_TABLE if len(scenes) > 1 else LABELS
         assert labels[0] == "verdict" and [label for label in labels if label in wanted] == list(wanted)
@@ -156,6 +157,32 @@ def test_a_failed_scene_says_how_it_ended(run, scene_text, tmp_path: Path) -> No
     lines = ended.stdout.splitlines()
     assert lines[2] == f"  ended            {summary['status']} at t = 0 s"
     assert lines[3].strip() == summary["status_text"]
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "labels"),
+    (
+        ("film", "points.profile_nodes=9", ["points", "files"]),
+        ("sweep", "sweep.count=5", ["motions", "files"]),
+        ("map", "campaign.count=4,4", ["scenes", "longest", "files"]),
+        ("gearbox_orders", "campaign.count=2", ["scenes", "motions", "longest", "files"]),
+        (
+            "threshold",
+            "threshold.count=5",
+            ["scenes", "crossings", "width", "either side", "starts", "files"],
+        ),
+    ),
+)
+def test_tables_have_the_labels_of_scenes(
+    run, repository: Path, tmp_path: Path, name, change, labels
+) -> None:
+    ended = run(
+        repository / "input" / f"{name}.nml", "--set", change, "--output", tmp_path / "out", cwd=tmp_path
+    )
+    assert ended.returncode == 0, ended.stderr
+    lines = [line for line in ended.stdout.splitlines() if " s left, " not in line]
+    assert all(re.match(ALIGNED, line) for line in lines[1:]) and labels_of(lines) == labels, ended.stdout
+    assert max(len(line.replace(str(tmp_path), "")) for line in lines[1:]) <= WIDEST
 
 
 def test_thresholds_explain_themselves_in_the_log(rattle: Path, scene_text, tmp_path: Path) -> None:

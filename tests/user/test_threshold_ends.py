@@ -106,7 +106,7 @@ def test_ends_are_the_folds_of_pseudo_arclength_continuation(found, tmp_path: Pa
         assert abs(point.multipliers - 1.0).min() < 1e-5
         assert abs(reported - amplitude) < 1e-6 * amplitude
     log = (tmp_path / "results" / "scene.log").read_text()
-    assert "  at 1 of 1 crossing either side is possible" in log
+    assert "  either side      possible at 1 of 1 crossing, " in log
     reported = summary_of(tmp_path / "results" / "scene.summary.nml")
     assert (
         reported["crossings_followed"],
@@ -155,7 +155,7 @@ def test_a_trace_without_a_threshold_tells_of_another_side(found, alone, tmp_pat
         sides = sides_alone(alone, 0.5 * sum(ends), tmp_path)
         assert sides[0] == side and 1 - side in sides
     assert (
-        "1 of 1 trace without any have motions of another side"
+        "other side       in 1 of 1 trace without a crossing"
         in (tmp_path / "results" / "low.log").read_text()
     )
     assert summary_of(tmp_path / "results" / "low.summary.nml")["traces_with_another_side"] == 1
@@ -270,7 +270,7 @@ def test_motions_that_do_not_repeat_end_to_the_width_of_a_bracket(
             place = (row[f"last_{side}"] - first) / (last - first) * places
             assert word != "bracketed" or abs(place - round(place)) < 1e-9, side
     assert unsure > 0 and "bracketed" in {*rows["motion_end_below_word"], *rows["motion_end_above_word"]}
-    reported = re.search(r"at (\d+) crossings? an end is that of a motion that does not repeat", ended.stdout)
+    reported = re.search(r"motion ends      unsure at (\d+) crossings?: no repetition", ended.stdout)
     assert reported and int(reported[1]) == unsure
     assert summary_of(tmp_path / "results" / "scene.summary.nml")["crossings_end_unsure"] == unsure
 

@@ -278,8 +278,8 @@ def test_a_signal_ends_it_without_a_result(number, rattle, run, scene_text, tmp_
     process.send_signal(number)
     assert process.wait(600) == 128 + number
     reported = log.read_text()
-    assert "cut short after 0 of 3 traces; --resume goes on with these and " in reported
-    assert "  results/scene.rattle and its summary are those of an earlier run\n" in reported
+    assert "cut short        after 0 of 3 traces; --resume goes on with these and " in reported
+    assert "files            results/scene.rattle and its summary are those of an earlier run\n" in reported
     assert [digest(path) for path in results] == before
     assert not list((tmp_path / "results").glob("*.new"))
 
@@ -318,7 +318,7 @@ def cut_between(rattle: Path, folder: Path) -> int:
     for share in (1.0, 2.0, 0.5, 4.0, 0.25, 8.0, 0.1):
         if cut_short(rattle, folder, signal.SIGTERM, 0.2 * share) == 128 + signal.SIGTERM:
             reported = (folder / "results" / "scene.log").read_text()
-            if lines := int(re.search(r"cut short after (\d+) of 24 traces", reported)[1]):
+            if lines := int(re.search(r"cut short        after (\d+) of 24 traces", reported)[1]):
                 return lines
     raise AssertionError("the run could not be cut between two traces")
 
@@ -341,7 +341,7 @@ def test_carried_on_to_the_same_bytes(rattle, run, scene_text, tmp_path: Path) -
     assert state_path(tmp_path).read_bytes() == kept
     ended = run("--resume", "--threads", "2", "scene.nml", cwd=tmp_path, timeout=600.0)
     assert ended.returncode == 0, ended.stderr
-    assert f"carried on after {lines} traces of the earlier run" in ended.stdout
+    assert f"carried on       after {lines} traces of the earlier run" in ended.stdout
     assert digest(results / "scene.rattle") == digest(whole / "scene.rattle")
     reported, expected = (summary_of(place / "scene.summary.nml") for place in (results, whole))
     assert {**reported, "wall_seconds": 0} == {**expected, "wall_seconds": 0}
