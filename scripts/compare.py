@@ -63,7 +63,9 @@ def parse_options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description="Print a table with a column for each scene; '-' is what a summary does not know. "
         "With --output FILE.html: write a page, and FILE.csv, on what differs between the first result, the "
-        "base, and each other: in the inputs and in the answer, with errors, in percent and dB. "
+        "base, and each other: in the inputs and in the answer, with errors, in percent and dB; gearboxes "
+        "pair by pair and together, maps in one scale with their difference. report.py has the same of "
+        "several results of one kind. "
         "With --measured: draw order cuts of a test bench over those of a campaign over the speed of the "
         "shaft, with the differences of level.",
         parents=[common_options()],
@@ -81,7 +83,9 @@ def parse_options() -> argparse.Namespace:
         "--measured",
         type=Path,
         metavar="FILE.csv",
-        help="columns speed_rpm and order_O with amplitudes of order O [m/s2]; RESULT is then a campaign",
+        help="columns speed_rpm, ascending, and order_O with amplitudes of order O, as in order_2 [m/s2]; "
+        "other units of speed and acceleration are converted, an empty field is a gap; RESULT is then a "
+        "campaign over shaft.speed_rpm",
     )
     parser.set_defaults(output=None)
     return command.parse(parser)

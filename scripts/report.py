@@ -109,7 +109,12 @@ def parse_options() -> argparse.Namespace:
         metavar="[NAME=]RESULT",
         help="also give film forces in dB re those of this result or summary, pair by pair",
     )
-    parser.add_argument("--brief", action="store_true", help="leave the appendix out of what is printed")
+    parser.add_argument(
+        "--brief",
+        action="store_true",
+        help="leave the appendix out of what is printed; the rest is at most four sheets of a ready motion, "
+        "five of a map or gearbox",
+    )
     outputs.add_option(parser)
     return command.parse(parser)
 
