@@ -8,6 +8,7 @@
 !> The steps of the motion are recorded meanwhile, as those of a window are: what an irregular motion amounts to is known from
 !> these periods, with the errors that its sums after each of them give.
 module lyapunov
+   use clock, only: wall_seconds
    use kinds, only: dp
    use problem, only: of_velocity
    use signals, only: must_stop
@@ -55,9 +56,10 @@ module lyapunov
 
    !> Motions that are followed, each with a neighbour: what engine they go by is a matter of its own.
    type, abstract, public :: followed_motions_t
+      !> Wall time after which no more period is begun [s]; by default there is no such time
+      real(dp) :: ends_at = huge(1.0_dp)
    contains
       procedure(carry_motions), deferred :: carry
-      procedure(time_is_over), deferred :: is_late
    end type followed_motions_t
 
    abstract interface
@@ -78,12 +80,6 @@ module lyapunov
          !> With the records
          type(path_t), intent(inout) :: paths(:)
       end subroutine carry_motions
-
-      !> Whether no more period may be begun.
-      logical function time_is_over(self)
-         import :: followed_motions_t
-         class(followed_motions_t), intent(in) :: self
-      end function time_is_over
 
       !> Whether a path shows enough of its motion, or should be followed on.
       pure logical function path_is_enough(path)
@@ -111,10 +107,10 @@ contains
       integer, allocatable :: left(:)
       integer :: period, i
 
-      left = [(i, i=1, size(paths))]
+      allocate (left, source=[(i, i=1, size(paths))])
       do period = -turning_periods + 1, most_followed_periods
          if (size(left) == 0 .or. must_stop()) exit
-         if (followed%is_late()) then
+         if (wall_seconds() > followed%ends_at) then
             do i = 1, size(left)
                if (partings(left(i))%for_good) partings(left(i)) = parting_of(growths(1:period - 1, left(i)))
                partings(left(i))%out_of_time = .not. partings(left(i))%for_good

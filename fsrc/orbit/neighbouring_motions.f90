@@ -28,7 +28,6 @@ module neighbouring_motions
       real(dp), allocatable :: displacements(:, :, :)
    contains
       procedure :: carry
-      procedure :: is_late
    end type neighbouring_motions_t
 
    public :: beside_neighbours
@@ -77,13 +76,6 @@ contains
          end associate
       end do
    end subroutine carry
-
-   !> Such motions are not limited in time.
-   logical function is_late(self)
-      class(neighbouring_motions_t), intent(in) :: self
-
-      is_late = .not. same_type_as(self, self)
-   end function is_late
 
    !> Carry motions and their displacements through a period: those that have tangents with these, the others beside a neighbour.
    subroutine carry_period(problems, left, period, here, displacements, passed, paths)

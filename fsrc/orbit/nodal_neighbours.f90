@@ -5,7 +5,7 @@ module nodal_neighbours
    use lyapunov, only: followed_motions_t, path_t
    use nodal_orbit, only: follow_period, state_of_neighbours
    use nodal_state, only: unpack_motion
-   use nodal_step, only: gear_t, is_late, motion_t, nodal_choice_t, set_up
+   use nodal_step, only: gear_t, motion_t, nodal_choice_t, set_up
    use nodal_tangent, only: combine, neighbours, nodal_tangent_t, start_tangent
    use problem, only: of_film, of_velocity, problem_t
    use scene_status, only: status_complete
@@ -21,7 +21,6 @@ module nodal_neighbours
       type(nodal_tangent_t) :: tangent
    contains
       procedure :: carry
-      procedure :: is_late => time_is_over
    end type nodal_neighbours_t
 
    public :: beside_nodal_neighbour
@@ -38,6 +37,7 @@ contains
       real(dp), intent(in) :: numbers(:)
       type(nodal_neighbours_t) :: followed
 
+      followed%ends_at = choice%ends_at
       associate (gear => followed%gear, motion => followed%motion)
          call set_up(problem, choice, gear)
          call unpack_motion(problem, choice%nodes, numbers, motion)
@@ -81,12 +81,5 @@ contains
          call combine(share, tangent)
       end associate
    end subroutine carry
-
-   !> Whether the time of the scene is over.
-   logical function time_is_over(self)
-      class(nodal_neighbours_t), intent(in) :: self
-
-      time_is_over = is_late(self%gear%choice)
-   end function time_is_over
 
 end module nodal_neighbours
