@@ -40,7 +40,7 @@ module input_entry
       type(numbers_t), allocatable :: columns(:)
    end type entry_t
 
-   public :: new_entry, set_entry, close_list, value_text, numbers_text, place_of
+   public :: new_entry, set_entry, is_overridden, rows_of, forget_elements, close_list, value_text, numbers_text, place_of
 
 contains
 
@@ -219,6 +219,39 @@ contains
       end do
    end subroutine forget_behind
 
+   !> Whether an element was set on the command line.
+   pure logical function is_overridden(entry, row, column)
+      type(entry_t), intent(in) :: entry
+      integer, intent(in) :: row
+      integer, intent(in) :: column
+
+      is_overridden = row <= size(entry%elements, 1) .and. column <= size(entry%elements, 2)
+      if (is_overridden) is_overridden = allocated(entry%elements(row, column)%text) .and. entry%elements(row, column)%line == 0
+   end function is_overridden
+
+   !> Number of the last element of a list, 0: it has none.
+   pure integer function rows_of(entry) result(rows)
+      type(entry_t), intent(in) :: entry
+
+      do rows = size(entry%elements, 1), 1, -1
+         if (allocated(entry%elements(rows, 1)%text)) exit
+      end do
+   end function rows_of
+
+   !> Forget the elements of a column from a row on that the file has set.
+   pure subroutine forget_elements(entry, first_row, column)
+      type(entry_t), intent(inout) :: entry
+      integer, intent(in) :: first_row
+      integer, intent(in) :: column
+      integer :: i
+
+      if (column > size(entry%elements, 2)) return
+      do i = first_row, size(entry%elements, 1)
+         if (entry%elements(i, column)%line > 0 .and. allocated(entry%elements(i, column)%text)) &
+            deallocate (entry%elements(i, column)%text)
+      end do
+   end subroutine forget_elements
+
    !> That an element of an assignment was set before; empty if none was.
    pure function set_already(assignment, entry, count) result(message)
       type(assignment_t), intent(in) :: assignment
@@ -287,7 +320,7 @@ contains
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
       type(numbers_t), allocatable :: columns(:)
-      integer :: lengths(size(entry%elements, 2)), i, j
+      integer :: lengths(size(entry%elements, 2)), last, i, j
 
       if (.not. is_list(key) .or. entry%faulty .or. size(lengths) == 0) return
       do j = 1, size(lengths)
@@ -297,8 +330,10 @@ contains
          lengths(j) = i
       end do
       entry%words = ''
-      allocate (columns(size(lengths)))
-      do j = 1, size(columns)
+      ! What was forgotten is no column.
+      last = findloc(lengths > 0, .true., dim=1, back=.true.)
+      allocate (columns(last))
+      do j = 1, last
          allocate (columns(j)%numbers(lengths(j)))
          do i = 1, lengths(j)
             if (.not. allocated(entry%elements(i, j)%text)) then
@@ -316,7 +351,7 @@ contains
             if (key%kind == list_kind) entry%words = trim(adjustl(entry%words//' '//entry%word))
          end do
       end do
-      if (key%kind == reals_kind) entry%numbers = columns(1)%numbers
+      if (key%kind == reals_kind .and. last > 0) entry%numbers = columns(1)%numbers
       if (key%kind == table_kind) call move_alloc(columns, entry%columns)
    end subroutine close_list
 

@@ -2,7 +2,7 @@
 module scene_input
    use errors, only: fault_list_t
    use file_system, only: lies_inside
-   use input_entry, only: close_list, entry_t, new_entry, set_entry
+   use input_entry, only: close_list, entry_t, forget_elements, is_overridden, new_entry, rows_of, set_entry
    use input_key, only: integer_kind, key_t, real_kind
    use key_table, only: find_key, keys, known_group, nearest_group, nearest_key
    use kinds, only: dp
@@ -27,6 +27,7 @@ module scene_input
       type(fault_list_t) :: faults
    contains
       procedure :: set_all
+      procedure :: forget_replaced_ranges
       procedure :: close_lists
       procedure :: put_numbers
       procedure :: put_laws
@@ -109,6 +110,28 @@ contains
          end associate
       end do
    end subroutine set_all
+
+   !> Where the command line says which keys vary, forget what the file says of others: what it gives behind the last one, values of
+   !> one that gets a range, and a table of scenes.
+   subroutine forget_replaced_ranges(self)
+      class(scene_input_t), intent(inout) :: self
+      character(*), parameter :: lists(*) = [character(14) :: 'campaign.scale', 'campaign.first', 'campaign.last', 'campaign.count']
+      integer :: csv, varied, i
+
+      associate (vary => self%entries(find_key('campaign.vary')), first => self%entries(find_key('campaign.first')), &
+                 values => self%entries(find_key('campaign.values')))
+         if (.not. is_overridden(vary, 1, 1)) return
+         varied = rows_of(vary)
+         do i = 1, size(lists)
+            call forget_elements(self%entries(find_key(trim(lists(i)))), varied + 1, 1)
+         end do
+         do i = 1, size(values%elements, 2)
+            if (i > varied .or. is_overridden(first, i, 1)) call forget_elements(values, 1, i)
+         end do
+      end associate
+      csv = find_key('campaign.csv')
+      if (self%entries(csv)%line > 0) self%entries(csv) = new_entry(keys(csv), self%file)
+   end subroutine forget_replaced_ranges
 
    !> Put the lists together, once all their elements are known.
    subroutine close_lists(self)

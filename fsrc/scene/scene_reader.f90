@@ -154,6 +154,7 @@ contains
          end if
          call input%set_all(set, overrides(i)%source, .true.)
       end do
+      call input%forget_replaced_ranges()
       call input%close_lists()
    end subroutine set_all_keys
 

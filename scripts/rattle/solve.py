@@ -277,7 +277,7 @@ def campaign(
     input
         A file, namelist text, or a dict of groups of keys, of several &gear as a list.
     vary
-        Maps 'group.key' to a `Range` or to values; None: as the input has it.
+        Maps 'group.key' to a `Range` or to values, instead of what the input varies; None: as it has it.
     set
         Keys with the values that they get instead of those of the input, as 'group.key' or by group; 'gear'
         means all pairs of the input, 'gear(2)' its second.
@@ -412,12 +412,14 @@ def _varied(vary: Mapping[str, Range | Iterable[float]] | None) -> dict[str, Any
     """Keys of &campaign that vary these."""
     asked: dict[str, Any] = {}
     varied = dict(vary or {})
+    if varied:  # instead of those of the input, whose ranges the program then leaves
+        asked["campaign.vary"] = list(varied)
+        asked["campaign.scale"] = [v.scale if isinstance(v, Range) else "linear" for v in varied.values()]
     if not all(isinstance(values, Range) for values in varied.values()):  # a table of values has no gaps
         varied = {key: v.values if isinstance(v, Range) else v for key, v in varied.items()}
-    for place, (key, values) in enumerate(varied.items(), 1):
-        asked[f"campaign.vary({place})"] = key
+    for place, values in enumerate(varied.values(), 1):
         if isinstance(values, Range):
-            parts = {"first": values.first, "last": values.last, "count": values.count, "scale": values.scale}
+            parts = {"first": values.first, "last": values.last, "count": values.count}
             asked |= {f"campaign.{name}({place})": part for name, part in parts.items() if part is not None}
         else:
             asked[f"campaign.values(:,{place})"] = list(values)

@@ -173,6 +173,57 @@ def test_a_campaign_of_the_input_is_run_as_it_is(scene_text):
     assert result.kind == "sample" and result.row_count == 5
 
 
+RANGES = (
+    "vary = 'load.force_amplitude', 'kinematics.entrainment_speed', scale = 'logarithmic', 'logarithmic', "
+    "first = 5.0, 0.5, last = 105.0, 20.0, count = 5, 4"
+)
+PLANS = {
+    "ranges": RANGES,
+    "values": "vary = 'load.force_amplitude', 'load.frequency', values(:, 1) = 5, 7, 9, "
+    "values(:, 2) = 500, 600",
+    "table": "csv = 'scenes.csv'",
+}
+ASKED: dict[str, tuple[dict, dict]] = {
+    "values": ({"load.mass": [2.0, 3.0, 4.0]}, {}),
+    "a range": ({"load.mass": rattle.Range(2.0, 4.0, 3)}, {}),
+    "both": ({"load.mass": rattle.Range(1.0, 4.0, 3, scale="logarithmic"), "load.gravity": [9.0, 9.8]}, {}),
+    "more": (
+        {
+            "load.mass": rattle.Range(2.0, 4.0, 2),
+            "load.gravity": rattle.Range(9.0, 9.8, 2),
+            "load.force_scale": rattle.Range(0.5, 1.0, 2),
+        },
+        {},
+    ),
+    "a sample": ({"load.mass": rattle.Range(2.0, 4.0)}, {"sample": "sobol", "size": 3}),
+}
+
+
+@pytest.mark.parametrize("asked", ASKED)
+@pytest.mark.parametrize("plan", PLANS)
+def test_asked_keys_vary_instead_of_those_of_the_input(scene_text, tmp_path, plan, asked):
+    """As in an input that has no plan of its own."""
+    (tmp_path / "scenes.csv").write_text("load.mass\n2\n3\n")
+    inputs = (scene_text(**campaign_runs.BASE) + f"\n&campaign\n{own}\n/\n" for own in (PLANS[plan], ""))
+    found = []
+    for text in inputs:
+        (tmp_path / "scene.nml").write_text(text)
+        vary, options = ASKED[asked]
+        found.append(rattle.campaign(tmp_path / "scene.nml", vary, record=["film_minimum"], **options).result)
+    replaced, alone = found
+    assert replaced.varied == alone.varied == tuple(vary)
+    assert replaced.kind == alone.kind
+    for name in alone.names:
+        np.testing.assert_array_equal(replaced[name], alone[name], err_msg=name)
+
+
+def test_ranges_too_many_on_the_command_line_are_refused(scene_text):
+    """What the command line says itself is not left out."""
+    text = scene_text(**campaign_runs.BASE) + f"\n&campaign\n{RANGES}\n/\n"
+    with pytest.raises(rattle.InputError, match="more ranges than varied keys"):
+        rattle.campaign(text, {"load.mass": rattle.Range(2.0, 4.0, 3)}, set={"campaign.first": [2.0, 3.0]})
+
+
 def test_failed_scenes_of_a_campaign_are_rows():
     scene = {**SCENE, "solver": STEADY, "film": {"law": "piezo-viscous", "model": "reynolds"}}
     result, summary = rattle.campaign(scene, {"load.force_amplitude": [1.0, 900.0]}, record=["film_minimum"])
