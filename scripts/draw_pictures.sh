@@ -69,6 +69,8 @@ keep countermeasures_rattling_gear.png countermeasures.png
 solve input/gearbox_run_up.nml
 plot sweep "$runs/gearbox_run_up.rattle"
 keep sweep_gearbox_run_up.png run_up.png
+plot waterfall "$runs/gearbox_run_up.rattle"
+keep waterfall_gearbox_run_up.png run_up_waterfall.png
 solve input/gearbox_orders.nml
 plot orders "$runs/gearbox_orders.rattle"
 keep orders_gearbox_orders.4th.png orders.png

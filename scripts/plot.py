@@ -18,7 +18,7 @@ COMMANDS = {
     "sweep": "steady motions along a swept key, there and back",
     "campaign": "maps, slices and a one-page summary of a campaign",
     "orders": "engine orders over speed from a campaign, with measured ones over them",
-    "waterfall": "amplitude over order and speed of a measured run-up, with a computed one beside it",
+    "waterfall": "amplitude over order and speed of a run-up, measured, or driven up and down",
     "threshold": "where along a key a motion changes, over one or two others, or over a map",
     "tolerance": "what a loose tolerance of the iteration does to a motion",
     "film-fit": "the film-thickness law (32), fitted to Reynolds films",

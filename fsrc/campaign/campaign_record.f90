@@ -1,19 +1,14 @@
 !> What is recorded of every scene of a campaign: columns, and the row of a scene. NaN: unknown.
 module campaign_record
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use judged_scene, only: judged_scene_t, quantity_list, quantity_value
+   use judged_scene, only: judged_scene_t, quantity_numbers
    use key_table, only: keys
    use kinds, only: dp, int64
-   use quantities, only: a_list, quantity_t, quantity_table
+   use quantities, only: a_list, columns_of, numbers_in_a_row, quantity_t, quantity_table
    use result_format, only: column_name_bytes, column_unit_bytes
    use scene_types, only: scene_t
-   use text, only: integer_text
    use varied_keys, only: varied_name
    implicit none(type, external)
    private
-
-   !> Numbers of a list that are recorded.
-   integer, parameter :: recorded_numbers = 8
 
    public :: record_columns, record_number, record_row
 
@@ -29,8 +24,8 @@ contains
       character(column_name_bytes), allocatable, intent(out) :: names(:)
       !> Units
       character(column_unit_bytes), allocatable, intent(out) :: units(:)
-      type(quantity_t) :: quantity
-      integer :: i, n
+      type(quantity_t), allocatable :: recorded(:)
+      integer :: i
 
       allocate (names(0), units(0))
       call put(names, units, 'scene', '-')
@@ -39,18 +34,9 @@ contains
          if (units(size(units)) == '') units(size(units)) = '-'
       end do
       call put(names, units, 'status', '-')
-      do i = 1, size(scene%campaign%record)
-         quantity = quantity_table(scene%campaign%record(i))
-         if (quantity%kind == a_list) then
-            do n = 1, recorded_numbers
-               ! In the singular.
-               call put(names, units, quantity%name(:len_trim(quantity%name) - 1)//'_'//integer_text(n), quantity%unit)
-            end do
-         else
-            call put(names, units, quantity%name, quantity%unit)
-         end if
-      end do
-
+      allocate (recorded, source=columns_of(scene%campaign%record))
+      names = [character(column_name_bytes) :: names, recorded%name]
+      units = [character(column_unit_bytes) :: units, recorded%unit]
    end subroutine record_columns
 
    !> Append a column.
@@ -80,26 +66,13 @@ contains
       type(judged_scene_t), intent(in) :: judged
       !> The row
       real(dp), intent(out) :: row(:)
-      real(dp), allocatable :: list(:)
-      integer :: i, code, column
+      integer :: column
 
       row(1) = real(number, dp)
       row(2:1 + size(values)) = values
       column = 2 + size(values)
       row(column) = real(judged%status, dp)
-      do i = 1, size(scene%campaign%record)
-         code = scene%campaign%record(i)
-         if (quantity_table(code)%kind == a_list) then
-            if (allocated(list)) deallocate (list)
-            allocate (list, source=quantity_list(code, judged))
-            row(column + 1:column + recorded_numbers) = ieee_value(0.0_dp, ieee_quiet_nan)
-            if (size(list) > 0) row(column + 1:column + recorded_numbers) = list(:recorded_numbers)
-            column = column + recorded_numbers
-         else
-            column = column + 1
-            row(column) = quantity_value(code, judged)
-         end if
-      end do
+      row(column + 1:) = quantity_numbers(scene%campaign%record, judged)
    end subroutine record_row
 
    !> Put a number into its place in a row, if it is recorded.
@@ -117,7 +90,7 @@ contains
       column = size(row)
       do i = size(scene%campaign%record), 1, -1
          if (scene%campaign%record(i) == code) row(column) = number
-         column = column - merge(recorded_numbers, 1, quantity_table(scene%campaign%record(i))%kind == a_list)
+         column = column - merge(numbers_in_a_row, 1, quantity_table(scene%campaign%record(i))%kind == a_list)
       end do
    end subroutine record_number
 

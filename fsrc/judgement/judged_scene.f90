@@ -78,7 +78,7 @@ module judged_scene
    !> Codes of film_model
    real(dp), parameter, public :: film_model_closure = 1.0_dp, film_model_nodes = 2.0_dp, film_model_stopped = 3.0_dp
 
-   public :: quantity_value, quantity_list, largest_load
+   public :: quantity_value, quantity_list, quantity_numbers, largest_load
 
 contains
 
@@ -209,8 +209,6 @@ contains
          case (quantity_reversals_per_revolution)
             if (judged%resolved%gear_speed > 0.0_dp) &
                value = judged%rattle%reversals_per_period*problem%frequency/judged%resolved%gear_speed
-         case (quantity_first_harmonic)
-            if (spectrum%moving) value = spectrum%harmonics(1)
          case (quantity_harmonic_count)
             if (spectrum%moving) value = real(spectrum%harmonic_count, dp)
          case (quantity_harmonic_count_is_bound)
@@ -546,6 +544,29 @@ contains
          if (place(1) > 0) list = impact_list(place(2), judged%impacts%contacts(place(1)), judged)
       end select
    end function quantity_list
+
+   !> Numbers of quantities in a row, as columns_of names them; NaN where unknown.
+   pure function quantity_numbers(quantities, judged) result(numbers)
+      !> Codes
+      integer, intent(in) :: quantities(:)
+      type(judged_scene_t), intent(in) :: judged
+      real(dp), allocatable :: numbers(:)
+      real(dp) :: listed(numbers_in_a_row)
+      integer :: i
+
+      allocate (numbers(0))
+      do i = 1, size(quantities)
+         if (quantity_table(quantities(i))%kind == a_list) then
+            associate (list => quantity_list(quantities(i), judged))
+               listed = ieee_value(0.0_dp, ieee_quiet_nan)
+               listed(:min(size(list), size(listed))) = list(:min(size(list), size(listed)))
+            end associate
+            numbers = [numbers, listed]
+         else
+            numbers = [numbers, quantity_value(quantities(i), judged)]
+         end if
+      end do
+   end function quantity_numbers
 
    !> A number of each impact on a contact that is kept.
    pure function impact_list(part, impacts, judged) result(list)

@@ -8,7 +8,7 @@ module run_sweep
    use errors, only: error_t
    use finished_files, only: place_files
    use judge_group, only: judgement_space_t
-   use judged_scene, only: judged_scene_t, quantity_value
+   use judged_scene, only: judged_scene_t, quantity_numbers, quantity_value
    use key_table, only: keys
    use kinds, only: dp, int64
    use log_file, only: log_t
@@ -16,8 +16,8 @@ module run_sweep
    use starting_state, only: keep_by_contacts, kept_by_contacts
    use problem, only: of_film, of_velocity
    use progress, only: progress_t
-   use quantities, only: need_count, needs_film_force, needs_motion_verdicts, needs_orbit, needs_starts, needs_verification, &
-      needs_verified_impacts, quantities_reported_in, quantity_model_limit, quantity_table
+   use quantities, only: columns_of, need_count, needs_film_force, needs_motion_verdicts, needs_orbit, needs_starts, &
+      needs_verification, needs_verified_impacts, quantities_reported_in, quantity_model_limit, quantity_t, quantity_table
    use prepared_scene, only: prepare, prepared_scene_t
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
@@ -152,10 +152,11 @@ contains
       type(scene_t), intent(in) :: scene
       character(column_name_bytes), allocatable, intent(out) :: names(:)
       character(column_unit_bytes), allocatable, intent(out) :: units(:)
+      type(quantity_t), allocatable :: reported(:)
 
-      names = [character(column_name_bytes) :: keys(scene%sweep%key)%name, 'direction', &
-               quantity_table(swept_quantities(scene))%name]
-      units = [character(column_unit_bytes) :: keys(scene%sweep%key)%unit, '-', quantity_table(swept_quantities(scene))%unit]
+      allocate (reported, source=columns_of(swept_quantities(scene)))
+      names = [character(column_name_bytes) :: keys(scene%sweep%key)%name, 'direction', reported%name]
+      units = [character(column_unit_bytes) :: keys(scene%sweep%key)%unit, '-', reported%unit]
    end subroutine sweep_columns
 
    !> Codes of the quantities that this sweep reports; what is swept has its column already.
@@ -177,12 +178,9 @@ contains
       !> The motion there
       type(judged_scene_t), intent(in) :: judged
       real(dp), allocatable :: row(:)
-      integer, allocatable :: codes(:)
-      integer :: i
 
-      allocate (codes, source=swept_quantities(scene))
       row = [scene%sweep%values(place), merge(1.0_dp, -1.0_dp, place <= scene%sweep%outward), &
-             (quantity_value(codes(i), judged), i=1, size(codes))]
+             quantity_numbers(swept_quantities(scene), judged)]
       where (ieee_is_nan(row)) row = 0.0_dp
    end function sweep_row
 

@@ -1,8 +1,10 @@
 !> The one table of quantities: what is reported of a judged scene in summaries, columns of sweeps, rows of campaigns and logs, and
 !> what the codes among them mean. Values are computed in judged_scene. fsrc/README.md says how a quantity is added.
 module quantities
+   use text, only: integer_text
    implicit none(type, external)
    public
+   private :: integer_text
 
    !> Numbers, counts, flags (1 or 0), codes of words, and lists of numbers.
    integer, parameter :: a_number = 1, a_count = 2, a_flag = 3, a_code = 4, a_list = 5
@@ -43,7 +45,7 @@ module quantities
          quantity_impact_times_coast, quantity_impact_loads_coast, quantity_impact_velocities_coast, &
          quantity_impact_impulses_coast, quantity_gear_position_minimum, quantity_gear_position_maximum, quantity_model_limit, &
          quantity_reversals_per_period, quantity_reversals_per_second, quantity_reversals_per_revolution, quantity_harmonics, &
-         quantity_first_harmonic, quantity_harmonic_count, quantity_harmonic_count_is_bound, quantity_spectral_reach, &
+         quantity_harmonic_count, quantity_harmonic_count_is_bound, quantity_spectral_reach, &
          quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, &
          quantity_irregular_fraction, quantity_irregular_fraction_is_bound, quantity_sampling_sufficient, quantity_rattle_class, &
          quantity_motions, quantity_starts_solved, quantity_unsettled_starts, quantity_start_periods, quantity_loudest_class, &
@@ -293,10 +295,8 @@ module quantities
          'summary campaign', 'reversals_per_period times the frequency.'), &
       quantity_t(quantity_reversals_per_revolution, 'reversals_per_revolution', '-', a_number, part_window, needs_spectrum, &
          'summary campaign', 'Turns of the acceleration that stand out, in a revolution of the loose gear of &gear.'), &
-      quantity_t(quantity_harmonics, 'harmonics', 'm/s2', a_list, part_window, needs_spectrum, 'summary campaign', &
+      quantity_t(quantity_harmonics, 'harmonics', 'm/s2', a_list, part_window, needs_spectrum, 'summary sweep campaign', &
          'Amplitudes of the acceleration at multiples of the frequency of the force: 40 in a summary, harmonic_1 to 8 in a row.'), &
-      quantity_t(quantity_first_harmonic, 'first_harmonic', 'm/s2', a_number, part_spectrum, needs_spectrum, 'sweep', &
-         'Amplitude of the acceleration at the frequency of the force.'), &
       quantity_t(quantity_harmonic_count, 'harmonic_count', '-', a_count, part_spectrum, needs_spectrum, 'summary sweep campaign', &
          'Multiples of the dominant order of the force with harmonics about them above the harmonic threshold.'), &
       quantity_t(quantity_harmonic_count_is_bound, 'harmonic_count_is_bound', '-', a_flag, part_spectrum, needs_spectrum, &
@@ -460,6 +460,8 @@ module quantities
    character(*), parameter :: measurable = transfer(pack(names, is_measurable), repeat(' ', len(names)*count(is_measurable)))
    !> Words of rattle_class
    character(*), parameter :: class_words = 'quiet creep idle irregular subharmonic irregular_so_far '
+   !> Numbers of a list that a row of a campaign or sweep has
+   integer, parameter :: numbers_in_a_row = 8
    !> Least code of verdict of a motion with impacts
    integer, parameter :: least_verdict_with_impacts = 2
 
@@ -554,5 +556,24 @@ contains
 
       codes = pack(quantity_table%code, index(quantity_table%reported_in, place) > 0)
    end function quantities_reported_in
+
+   !> Quantities as columns of rows: a list has several, of harmonics harmonic_1, harmonic_2, ...
+   pure function columns_of(codes) result(columns)
+      integer, intent(in) :: codes(:)
+      type(quantity_t), allocatable :: columns(:)
+      type(quantity_t) :: column
+      character(len(column%name)) :: name
+      integer :: k, n
+
+      allocate (columns(0))
+      do k = 1, size(codes)
+         column = quantity_table(codes(k))
+         name = column%name
+         do n = 1, merge(numbers_in_a_row, 1, column%kind == a_list)
+            if (column%kind == a_list) column%name = name(:len_trim(name) - 1)//'_'//integer_text(n)
+            columns = [columns, column]
+         end do
+      end do
+   end function columns_of
 
 end module quantities

@@ -5,7 +5,7 @@ module test_quantities
    use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t
    use errors, only: error_t
-   use judged_scene, only: judged_scene_t, quantity_list, quantity_value
+   use judged_scene, only: judged_scene_t, quantity_list, quantity_numbers, quantity_value
    use key_table, only: find_key
    use kinds, only: dp, int64
    use problem, only: has_damped_teeth, has_elastic_teeth
@@ -135,7 +135,11 @@ contains
       allocate (reported, source=quantities_reported_in('sweep'))
       do i = 1, size(reported)
          if (any(reported(i) == [quantity_status, quantity_periods_solved])) cycle
-         call check_same(reported(i), quantity_value(reported(i), swept), 'in a sweep')
+         if (quantity_table(reported(i))%kind == a_list) then
+            call check_list(reported(i), quantity_numbers([reported(i)], swept), 'in a sweep')
+         else
+            call check_same(reported(i), quantity_value(reported(i), swept), 'in a sweep')
+         end if
       end do
       deallocate (reported)
       allocate (reported, source=quantities_reported_in('campaign'))
@@ -143,10 +147,7 @@ contains
       do i = 1, size(reported)
          column = column + 1
          if (quantity_table(reported(i))%kind == a_list) then
-            associate (list => quantity_list(reported(i), single))
-               call checks%check(maxval(abs(row(column:column + 7) - list(:8))) < 1.0e-5_dp*maxval(list), &
-                  trim(quantity_table(reported(i))%name)//' in a campaign')
-            end associate
+            call check_list(reported(i), row(column:column + 7), 'in a campaign')
             column = column + 7
          else if (.not. any(reported(i) == [quantity_verified, quantity_periods_solved])) then
             call check_same(reported(i), row(column), 'in a campaign')
@@ -155,6 +156,18 @@ contains
       call checks%check(column == size(row), 'columns of a row')
 
    contains
+
+      !> The first numbers of a list agree to five digits of the largest.
+      subroutine check_list(quantity, numbers, place)
+         integer, intent(in) :: quantity     !> Its code
+         real(dp), intent(in) :: numbers(:)  !> Its numbers elsewhere
+         character(*), intent(in) :: place   !> Where
+
+         associate (list => quantity_list(quantity, single))
+            call checks%check(maxval(abs(numbers - list(:size(numbers)))) < 1.0e-5_dp*maxval(list), &
+               trim(quantity_table(quantity)%name)//' '//place)
+         end associate
+      end subroutine check_list
 
       !> A number agrees to five digits, an error to its size, everything else exactly.
       subroutine check_same(quantity, value, place)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
+from script_calls import called_here
 from test_report import report
 
 import rattle as package
 from rattle import run_up
+from rattle.figures import style, waterfall
 from rattle.report import sweep as words
 
 # The part of the ready run-up with both jumps and both changes of period.
@@ -88,6 +91,53 @@ def test_the_report_says_how_slow_and_where_no_rate_is_slow_enough(run_ups) -> N
     assert f"driven at {pace.rates[pace.slowest]:.3g} 1/min/s or slower" in text
     assert "between 2180 and 2190, 2230 and 2240 1/min" in text
     assert "the fastest run-up that has these motions" in text and "Shaded: both ways" in text
+
+
+def harmonics_of(result: package.Result) -> np.ndarray:
+    """A row for each motion, a column for each multiple of the frequency of the force."""
+    return np.column_stack([result[f"harmonic_{number}"] for number in range(1, 9)])
+
+
+@pytest.mark.parametrize("speed", [2080.0, 2250.0])
+def test_harmonics_of_a_value_are_those_of_the_motion_alone(
+    run_ups, repository, rattle, tmp_path, speed
+) -> None:
+    """Below and above the hysteresis, where there is one motion, on both ways."""
+    base = repository / "input" / "gearbox_run_up.nml"
+    alone = base.read_text().partition("&sweep")[0].replace("'sweep'", "'motion'")
+    (tmp_path / "alone.nml").write_text(alone)
+    shutil.copy(base.with_suffix(".csv"), tmp_path)
+    given = {"shaft.speed_rpm": speed, "solver.until": "steady", "solver.starts": 1}
+    summary = package.run(tmp_path / "alone.nml", set=given, program=rattle).summary
+    own = np.array(summary["harmonics"][:8])
+    steady = run_ups[400]
+    rows = np.flatnonzero(steady["speed_rpm"] == speed)
+    assert rows.size == 2
+    # Both end within 1e-4 of the motion that repeats, which a jump, 5 dB and more, is far from.
+    for row in rows:
+        np.testing.assert_allclose(harmonics_of(steady)[row], own, rtol=1e-3, atol=1e-3 * own.max())
+
+
+def test_the_waterfall_has_the_levels_of_both_ways_and_their_difference(run_ups, tmp_path) -> None:
+    steady = run_ups[400]
+    code, said, complained = called_here("plot.py", "waterfall", steady.path, "--format", "png", cwd=tmp_path)
+    assert code == 0 and said.split() == ["waterfall_driven_400.png"], complained
+    levels = 20.0 * np.log10(harmonics_of(steady) / 1e-6)
+    up, down = levels[:19], levels[18:][::-1]
+    with style.house_style():
+        panels = waterfall.draw_ways(steady).axes[:3]
+    for axes, expected in zip(panels, (up, down, down - up), strict=True):
+        (mesh,) = axes.collections
+        np.testing.assert_allclose(mesh.get_array()[:, ::2], expected, atol=1e-9)
+        assert list(axes.get_xticks()) == [4.0, 8.0, 12.0, 16.0]
+        assert sorted({line.get_ydata()[0] for line in axes.lines}) == [2105.0, 2185.0]
+
+
+def test_a_sweep_without_orders_has_no_waterfall(repository, rattle, tmp_path) -> None:
+    given = {"sweep.count": 2, "sweep.first": 400.0, "solver.periods": 100}
+    solved = package.run(repository / "input" / "sweep.nml", set=given, folder=tmp_path, program=rattle)
+    code, _, complained = called_here("plot.py", "waterfall", solved.result.path, cwd=tmp_path)
+    assert code == 2 and "is no sweep over shaft.speed_rpm with harmonics" in complained
 
 
 def test_other_keys_have_no_rate(repository, rattle, tmp_path) -> None:

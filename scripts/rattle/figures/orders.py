@@ -138,8 +138,8 @@ def comparison(name: str, cuts: Cuts, measured: Cuts) -> list[str]:
         if own is None or heard is None:
             lines.append(f"{name}, order {order:g}: measured, not computed")
             continue
-        differences = _level(np.interp(measured.speeds, cuts.speeds, own, left=np.nan, right=np.nan))
-        differences -= _level(heard)
+        differences = level(np.interp(measured.speeds, cuts.speeds, own, left=np.nan, right=np.nan))
+        differences -= level(heard)
         differences = differences[np.isfinite(differences)]
         if not differences.size:
             lines.append(f"{name}, order {order:g}: no speed in common")
@@ -161,11 +161,11 @@ def draw(campaign: Campaign, cuts: Cuts, measured: Cuts | None) -> Figure:
         assert own is not None, "chosen are computed orders"
         line = style.run_line(place)
         of_engine = ", main order of the engine" if order == main else ""
-        above.plot(cuts.speeds, _level(own), label=f"order {order:g}{of_engine}", **line)
+        above.plot(cuts.speeds, level(own), label=f"order {order:g}{of_engine}", **line)
         if measured is not None and (heard := measured.at(order)) is not None:
             look = {"linestyle": "none", "marker": "o", "markersize": 3.5, "markerfacecolor": "none"}
             label = f"order {order:g}, measured"
-            above.plot(measured.speeds, _level(heard), color=line["color"], label=label, **look)
+            above.plot(measured.speeds, level(heard), color=line["color"], label=label, **look)
     above.set_ylabel(LEVEL_LABEL)
     above.set_xlim(cuts.speeds[0], cuts.speeds[-1])
     above.set_xlabel("Shaft speed [1/min]")
@@ -178,7 +178,7 @@ def draw(campaign: Campaign, cuts: Cuts, measured: Cuts | None) -> Figure:
 
 def _campbell(figure: Figure, axes: Axes, campaign: Campaign, cuts: Cuts) -> None:
     """Every order as a ray of frequency over speed, coloured by its level."""
-    levels = _level(cuts.amplitudes)
+    levels = level(cuts.amplitudes)
     top = np.nanmax(levels, initial=0.0)
     edges = cell_edges(campaign.axes[0])
     for place, order in enumerate(cuts.orders):
@@ -224,7 +224,7 @@ def _main_order(campaign: Campaign, cuts: Cuts) -> float:
     return harmonics[int(np.argmax(np.abs(sizes)))] * cuts.orders[0]
 
 
-def _level(amplitudes: np.ndarray) -> np.ndarray:
+def level(amplitudes: np.ndarray) -> np.ndarray:
     """Level of an amplitude [dB]."""
     with np.errstate(divide="ignore"):
         levels = 20.0 * np.log10(np.asarray(amplitudes) / REFERENCE)

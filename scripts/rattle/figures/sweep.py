@@ -218,16 +218,22 @@ def _draw_single(result: Result, all_axes: Mapping[str, Axes]) -> dict[str, obje
 
 
 def _shade(result: Result, all_axes: Mapping[str, Axes]) -> dict[str, object]:
+    """Stretches in which both ways have motions of their own."""
+    handles: dict[str, object] = {}
+    for stretch in hysteresis(result):
+        for axes in all_axes.values():
+            band = axes.axvspan(*stretch, color=SHADE, lw=0.0, zorder=0)
+        handles["hysteresis"] = band
+    return handles
+
+
+def hysteresis(result: Result) -> list[tuple[float, float]]:
     """Stretches in which both ways have motions of their own, half a step beyond their last values."""
     values = np.unique(result[result.names[0]])
     apart = np.flatnonzero(np.isin(values, run_up.differing(result)))
     middles = np.concatenate([values[:1], 0.5 * (values[1:] + values[:-1]), values[-1:]])
-    handles: dict[str, object] = {}
-    for stretch in np.split(apart, np.flatnonzero(np.diff(apart) > 1) + 1) if apart.size else []:
-        for axes in all_axes.values():
-            band = axes.axvspan(middles[stretch[0]], middles[stretch[-1] + 1], color=SHADE, lw=0.0, zorder=0)
-        handles["hysteresis"] = band
-    return handles
+    stretches = np.split(apart, np.flatnonzero(np.diff(apart) > 1) + 1) if apart.size else []
+    return [(middles[stretch[0]], middles[stretch[-1] + 1]) for stretch in stretches]
 
 
 def _draw_overlay(results: Sequence[Result], all_axes: Mapping[str, Axes]) -> dict[str, object]:

@@ -9,11 +9,16 @@ import numpy as np
 
 from rattle.codes import SUCCESSES, spoken, word
 from rattle.figures import sweep as picture
+from rattle.figures import waterfall
 from rattle.report import motion, page
 from rattle.result import Result
 from rattle.run_up import LEFT, SPEED, differing, is_run_up, pace, peaks
 
 WAYS = (("there", 1.0), ("back", -1.0))
+WATERFALL = (
+    "Levels of the acceleration relative to the shaft at the orders of the force: up, down, and "
+    "down less up. Dashed: where stretches end in which both ways have motions of their own."
+)
 
 
 @dataclass(frozen=True)
@@ -178,4 +183,9 @@ def figures(result: Result) -> list[str]:
         )
     if differing(result).size:
         caption += " Shaded: both ways have motions of their own."
-    return [page.drawing(lambda: picture.draw(result), caption, f"{result.scene_name} sweep")]
+    drawn = [page.drawing(lambda: picture.draw(result), caption, f"{result.scene_name} sweep")]
+    if is_run_up(result) and "harmonic_1" in result:
+        drawn.append(
+            page.drawing(lambda: waterfall.draw_ways(result), WATERFALL, f"{result.scene_name} waterfall")
+        )
+    return drawn
