@@ -12,6 +12,7 @@ from rattle import command, outputs, table
 from rattle.comparison.variant import grouped
 
 if TYPE_CHECKING:
+    from rattle.result import Result
     from rattle.sound.track import Heard
     from rattle.sound.transfer import Transfer
 
@@ -21,6 +22,10 @@ MOST_SPEEDS = 9  # that are listed
 QUASI_STEADY = (
     "Quasi-steady: at each speed its own steady motion from rest is heard, cross-faded into the next. A "
     "driven run-up lags behind and jumps later (input/CAMPAIGNS.md)."
+)
+DRIVEN = (
+    "Quasi-steady: at each speed the motion of the sweep is heard, cross-faded into the next: motions that "
+    "are carried along, there and back"
 )
 WITHOUT_LIBRARY = (
     "Loudness and sharpness are left out: MoSQITo is not installed; pip install 'rattle[sound]' brings it."
@@ -63,26 +68,43 @@ def run_up(options: argparse.Namespace, function: Transfer) -> None:
     from rattle.sound import run_up, track
 
     if len(options.results) != 1:
-        raise command.CommandError("--rate takes one result, a campaign over shaft.speed_rpm.")
-    campaign = rattle.read_campaign(options.results[0])
-    motions, left_out = run_up.solved_motions(campaign)
-    found = run_up.heard(motions, options.rate, function)
+        raise command.CommandError("--rate takes one result, a campaign or sweep over shaft.speed_rpm.")
+    result = rattle.read(options.results[0])
+    if result.task == "sweep":
+        if options.rate < 0.0:
+            raise command.CommandError("A sweep is heard the ways it went; --rate is above 0.")
+        command.note_open(result)
+        ways, left_out = run_up.driven_motions(result)
+        found, said = run_up.heard_driven(ways, options.rate, function), driven_words(result)
+    else:
+        motions, left_out = run_up.solved_motions(rattle.read_campaign(options.results[0]))
+        found, said = run_up.heard(motions, options.rate, function), QUASI_STEADY
     scale = options.full_scale or track.full_scale([found], function)
     inputs = [*options.results, *([options.transfer] if options.transfer else [])]
     files = [(options.output, lambda path: track.write_wav(path, [found], scale))]
     outputs.write(files, overwrite=options.overwrite, inputs=inputs)
     print(table.plain(list(run_up.rows(found, MOST_SPEEDS))))
     print(f"through {function.words}; a sample of 1 is {scale:.4g} Pa")
-    irregular = sum(not force.repeats for one in motions for force in one.forces.values())
-    for words, said in (
-        (QUASI_STEADY, True),
+    irregular = sum(not force.repeats for one in found.motions for force in one.forces.values())
+    for words, is_said in (
+        (said, True),
         (NOT_CALIBRATED, not function.calibrated),
         (f"{irregular} motions do not repeat: their last periods are heard again and again.", irregular),
-        (f"Left out, as a pair reached no end: {', '.join(f'{n:g}' for n in left_out)} 1/min.", left_out),
+        (f"Left out, as no motion was found: {', '.join(f'{n:g}' for n in left_out)} 1/min.", left_out),
     ):
-        if said:
+        if is_said:
             command.note(words)
     print(options.output)
+
+
+def driven_words(result: Result) -> str:
+    """How slow the run-up of a sweep has to be."""
+    from rattle.run_up import is_run_up, pace
+
+    rates = pace(result) if is_run_up(result) else None
+    if rates is None or rates.slowest is None:
+        return f"{DRIVEN}."
+    return f"{DRIVEN}, which a run-up has at {rates.rates[rates.slowest]:.3g} 1/min/s or slower."
 
 
 def rows(found: list) -> list[list[str]]:
@@ -168,7 +190,8 @@ def parse_options() -> argparse.Namespace:
         "--rate",
         type=rate,
         metavar="1/MIN/S",
-        help="of a run-up, down where it is below 0; RESULT is then a campaign over shaft.speed_rpm",
+        help="of a run-up, down where it is below 0; RESULT is then a campaign or sweep over "
+        "shaft.speed_rpm; a sweep is heard the ways it went",
     )
     parser.add_argument(
         "--full-scale",

@@ -1,4 +1,4 @@
-"""Single scenes of a campaign as inputs of their own, with the time series."""
+"""Single scenes of a campaign, or of a sweep, as inputs of their own, with the time series."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from rattle.campaign_result import SCENE, Campaign
 from rattle.command import CommandError
 from rattle.namelist import parse_groups
 from rattle.outputs import Writer, text_writer
+from rattle.result import Result
 
 # Keys that name tables in files of their own.
 TABLES = ("gear.drag_table", "shaft.table")
@@ -72,13 +73,31 @@ def tables(campaign: Campaign, row: int) -> dict[str, tuple[str, str]]:
     if campaign.gears:
         pair = campaign.gears[int(campaign[GEAR][row]) - 1]
         text = text.partition(f"\n! gear {pair}\n")[2].partition("\n! gear ")[0]
+    return _tables_of(text, campaign.name, pair)
+
+
+def _tables_of(text: str, name: str, pair: str = "") -> dict[str, tuple[str, str]]:
     found = {}
     for key in TABLES:
         lines = re.findall(rf"^! derived: {re.escape(key)} (?:columns|row) = (.*)$", text, re.MULTILINE)
         if lines:
-            name = f"{campaign.name}.{pair + '.' if pair and key.startswith('gear') else ''}{key}.csv"
-            found[key] = (name, "".join(line.replace(", ", ",") + "\n" for line in lines))
+            file = f"{name}.{pair + '.' if pair and key.startswith('gear') else ''}{key}.csv"
+            found[key] = (file, "".join(line.replace(", ", ",") + "\n" for line in lines))
     return found
+
+
+def motion_of_sweep(result: Result, directory: Path) -> list[tuple[Path, Writer]]:
+    """The input of a sweep as that of one motion, NAME.nml, and the tables that it names, beside it."""
+    groups, tables = parse_groups(result.input_text), _tables_of(result.input_text, result.scene_name)
+    groups.pop("sweep")
+    for name, (file, _) in tables.items():
+        group, key = name.split(".", 1)
+        groups[group][key] = file
+    groups["scene"]["task"] = "motion"
+    groups.setdefault("output", f90nml.Namelist())["series"] = True
+    groups.end_comma = False
+    files = {f"{result.scene_name}.nml": str(groups) + "\n", **dict(tables.values())}
+    return [(directory / name, text_writer(text)) for name, text in files.items()]
 
 
 def input_text(campaign: Campaign, row: int, results: str) -> str:

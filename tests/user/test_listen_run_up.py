@@ -10,7 +10,7 @@ from scipy.io import wavfile
 from script_calls import called_here
 
 import rattle as package
-from rattle.sound import levels, pressure
+from rattle.sound import levels, pressure, run_up
 
 SPEEDS = package.Range(900.0, 1200.0, 4)
 KEY = "shaft.speed_rpm"
@@ -114,3 +114,59 @@ def test_what_is_no_run_up_is_refused(campaign, repository, rattle, tmp_path) ->
         code, said, complained = called_here("listen.py", *given, cwd=tmp_path)
         assert (code, said) == (2, "") and words in complained, complained
         assert not (tmp_path / "x.wav").exists()
+
+
+@pytest.fixture(scope="module")
+def driven(rattle, repository, tmp_path_factory) -> tuple[package.Result, str, np.ndarray]:
+    """The part of the ready run-up with the hysteresis: its sweep, what is printed, and the force [N]."""
+    folder = tmp_path_factory.mktemp("driven")
+    given = {"sweep.first": 2080.0, "sweep.last": 2200.0, "sweep.count": 4, "solver.periods": 400}
+    options = {"set": given, "folder": folder, "program": rattle}
+    result = package.run(repository / "input" / "gearbox_run_up.nml", **options).result
+    (folder / "flat.csv").write_text(FLAT)
+    asked = ("--rate", "20", "--transfer", folder / "flat.csv", "--output", folder / "up.wav")
+    code, said, complained = called_here("listen.py", result.path, *asked, cwd=folder)
+    assert code == 0 and "motions that are carried along" in complained, complained
+    assert "Left out" not in complained
+    return result, said, wavfile.read(folder / "up.wav")[1].astype(float)
+
+
+def test_a_sweep_is_heard_with_the_motions_of_each_way(driven) -> None:
+    """At 2160 1/min both ways have their own; the sweep's own table has their forces."""
+    result, said, sound = driven
+    lines = [line.split() for line in said.splitlines() if line[:1].isdigit()]
+    for line in lines:
+        speed, time, force = map(float, line[:3])
+        row = round(time / 2.0)
+        assert time == 2.0 * row and speed == result["speed_rpm"][row]
+        assert force == pytest.approx(result["film_force_rms"][row], rel=5e-3)
+    assert len(lines) == 7 and sound.size == 12 * pressure.RATE + 1
+    up, down = result["film_force_rms"][2], result["film_force_rms"][4]
+    assert down > 1.1 * up
+    for time, force in ((4.0, up), (8.0, down)):
+        part = around(sound, time, 3.0 * 30.0 / 2160.0 / 2.0)
+        assert np.sqrt((part**2).mean()) == pytest.approx(force, rel=0.03)
+
+
+def test_the_sound_of_a_sweep_does_not_break_off_where_it_turns(driven) -> None:
+    """The phase of the shaft goes on: no step is larger than those beside it."""
+    _, _, sound = driven
+    steps = np.abs(np.diff(around(sound, 6.0, 0.2)))
+    turn = steps.size // 2
+    assert steps[turn - 2 : turn + 3].max() <= 1.05 * np.delete(steps, range(turn - 2, turn + 3)).max()
+
+
+def test_a_sweep_is_heard_forwards_alone(driven) -> None:
+    result, _, _ = driven
+    asked = ("--rate", "-10", "--output", "down.wav")
+    code, _, complained = called_here("listen.py", result.path, *asked, cwd=result.path.parent)
+    assert code == 2 and "the ways it went" in complained
+
+
+def test_a_motion_that_is_not_that_of_the_sweep_is_left_out(driven, monkeypatch) -> None:
+    """Each from rest, not from the one before: at 2120 and 2160 1/min a way then has that of the other."""
+    result, _, _ = driven
+    monkeypatch.setattr(run_up, "ENDING", {})
+    ways, left_out = run_up.driven_motions(result)
+    assert left_out == [2160.0, 2120.0]
+    assert [one.speed for one in ways[0]] == [2080.0, 2120.0, 2200.0]

@@ -14,10 +14,10 @@ from rattle.sound import transfer
 @pytest.mark.long
 def test_every_command_of_the_page_makes_its_sound(rattle: Path, repository: Path, tmp_path: Path) -> None:
     commands = shell((repository / "input" / "LISTENING.md").read_text())
-    assert commands.count("listen.py") == 3
+    assert commands.count("listen.py") == 4
     ended = call(commands, tmp_path, rattle, repository)
     assert ended.returncode == 0, ended.stderr
-    for name, seconds in (("box.wav", 6.5), ("first.wav", 3.0), ("run_up.wav", 6.0)):
+    for name, seconds in (("box.wav", 6.5), ("first.wav", 3.0), ("run_up.wav", 6.0), ("driven.wav", 24.0)):
         rate, samples = wavfile.read(tmp_path / name)
         assert rate == 48000 and samples.size in (48000 * seconds, 48000 * seconds + 1)
 

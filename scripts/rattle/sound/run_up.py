@@ -1,11 +1,14 @@
 """A run-up as a sound, quasi-steady: the steady motion of each speed, cross-faded into that of the next.
 
+Of a campaign these are the motions from rest; of a sweep those that it carries along, there and back.
+
 All follow the angle of the shaft, which turns as fast as the speed says: a motion is heard faster or slower
 as the speed is above or below its own, so that pitch rises evenly.
 """
 
 from __future__ import annotations
 
+import math
 import os
 import tempfile
 from collections.abc import Iterator, Sequence
@@ -20,7 +23,8 @@ from rattle.campaign_plan import GEAR
 from rattle.campaign_result import Campaign
 from rattle.command import CommandError
 from rattle.optional import needed
-from rattle.run_up import KEY, first_order
+from rattle.result import Result
+from rattle.run_up import KEY, SAME_PEAKS, SPEED, first_order
 from rattle.solve import SceneFailed, Solved, run
 from rattle.sound.force import COLUMNS, ForceHarmonics, force_harmonics
 from rattle.sound.levels import sound_level
@@ -28,6 +32,12 @@ from rattle.sound.pressure import HIGHEST, RATE, Tones, heard_share, tones_of
 from rattle.sound.transfer import Transfer
 
 SETTINGS = {"solver.starts": 1, "solver.samples_per_period": 4096, "output.columns": list(COLUMNS)}
+OF_SWEEPS = {
+    "solver.until": "steady",
+    "output.columns": [*COLUMNS, "film_thickness", "squeeze_velocity"],
+}
+# What the next motion of a sweep begins with, by the columns whose last row it is.
+ENDING = {"film.initial_film": "film_thickness", "film.initial_velocity": "squeeze_velocity"}
 # Points of the table of a motion for the shortest wave in it; cubic splines between are within 1e-4.
 POINTS = 16
 SHORTEST, LONGEST = 0.2, 600.0  # seconds
@@ -55,6 +65,16 @@ class HeardRunUp:
     levels: tuple[float, ...]
     shares: tuple[float, ...]
     pressure: np.ndarray
+
+    def followed_by(self, other: HeardRunUp) -> HeardRunUp:
+        """This one, and another that begins with its last motion."""
+        return HeardRunUp(
+            self.motions + other.motions[1:],
+            np.append(self.times, self.times[-1] + other.times[1:]),
+            self.levels + other.levels[1:],
+            self.shares + other.shares[1:],
+            np.append(self.pressure, other.pressure[1:]),
+        )
 
 
 def solved_motions(campaign: Campaign) -> tuple[list[SpeedMotion], list[float]]:
@@ -97,8 +117,68 @@ def _force(path: Path) -> ForceHarmonics | None:
     return force_harmonics(solved, HIGHEST)
 
 
-def heard(motions: Sequence[SpeedMotion], rate: float, transfer: Transfer) -> HeardRunUp:
-    """The run-up of a `rate` [1/min/s], down where it is below 0.
+def driven_motions(result: Result) -> tuple[list[list[SpeedMotion]], list[float]]:
+    """The motions of a sweep over speed, way by way, and the speeds whose motion is not found again.
+
+    Each is solved again from the end of the one before, as the sweep has done. The way back begins with the
+    last motion of the way there. Raises CommandError where a way has fewer than two motions.
+    """
+    if result.names[0] != SPEED or first_order(result) is None:
+        raise CommandError(f"{result.path}: a driven run-up is a sweep over {KEY}, as gearbox_run_up.nml.")
+    ways: list[list[SpeedMotion]] = [[]]
+    left_out: list[float] = []
+    ending: dict[str, float] = {}
+    way = 1.0
+    with tempfile.TemporaryDirectory(prefix="rattle-") as place:
+        files = rerun.motion_of_sweep(result, Path(place))
+        outputs.write(files, overwrite=False)
+        for row in range(result.row_count):
+            speed = float(result[SPEED][row])
+            if result["direction"][row] != way:
+                way = float(result["direction"][row])
+                ways.append(ways[-1][-1:])
+            try:
+                solved = run(files[0][0], set={**SETTINGS, **OF_SWEEPS, KEY: speed, **ending}, threads=1)
+            except SceneFailed:
+                solved, ending = None, {}
+            else:
+                assert isinstance(solved, Solved) and isinstance(solved.result, Result)
+                ending = {key: float(solved.result[name][-1]) for key, name in ENDING.items()}
+            if solved is not None and _is_that_of(solved, result, row):
+                ways[-1].append(SpeedMotion(speed, {"": force_harmonics(solved, HIGHEST)}))
+            else:
+                left_out.append(speed)
+    if min(map(len, ways)) < 2:
+        raise CommandError(f"{result.path}: fewer than two speeds of a way have motions.")
+    return ways, left_out
+
+
+def _is_that_of(solved: Solved, result: Result, row: int) -> bool:
+    """Whether a motion is that of a row; of two that do not repeat only that they do not."""
+    assert isinstance(solved.result, Result)
+    period = solved.result.orbit_period
+    if period is None or not result["orbit_period"][row] > 0.0:
+        return period is None and not result["orbit_period"][row] > 0.0
+    return math.isclose(solved.summary["film_force_rms"], result["film_force_rms"][row], rel_tol=SAME_PEAKS)
+
+
+def heard_driven(ways: Sequence[Sequence[SpeedMotion]], rate: float, transfer: Transfer) -> HeardRunUp:
+    """A driven run-up, one way after the other, each of this `rate` [1/min/s] in size; raises as `heard`."""
+    found: HeardRunUp | None = None
+    turns = 0.0
+    for way in ways:
+        first, last = way[0].speed, way[-1].speed
+        part = heard(way, math.copysign(rate, last - first), transfer, turns)
+        turns += 0.5 * (first + last) / 60.0 * part.times[-1]
+        found = part if found is None else found.followed_by(part)
+    assert found is not None, "a run-up has a way"
+    return found
+
+
+def heard(
+    motions: Sequence[SpeedMotion], rate: float, transfer: Transfer, turns_before: float = 0.0
+) -> HeardRunUp:
+    """The run-up of a `rate` [1/min/s], down where it is below 0, after so many turns of the shaft.
 
     Raises CommandError where it is too short or too long, or nothing of it is passed on.
     """
@@ -124,7 +204,7 @@ def heard(motions: Sequence[SpeedMotion], rate: float, transfer: Transfer) -> He
         first, last = int(np.ceil(times[near][0] * RATE)), int(times[near][-1] * RATE)
         time = np.arange(first, last + 1) / RATE
         weight = np.interp(time, times[near], (speeds[near] == speeds[place]).astype(float))
-        turns = (speeds[0] * time + 0.5 * rate * time**2) / 60.0
+        turns = turns_before + (speeds[0] * time + 0.5 * rate * time**2) / 60.0
         # What is heard faster must not pass the highest frequency.
         highest = HIGHEST * speeds[place] / speeds[near].max()
         for part in parts:
