@@ -20,6 +20,7 @@ from rattle import codes
 from rattle.keys import key_table
 from rattle.report import page as page_parts
 from rattle.report import report as page_on
+from rattle.report.limits import read_limits
 
 CALM = {"steps_per_period": None, "method": None, "periods": "60", "accuracy": "1e-6", "until": "'steady'"}
 LOOSE = {"steps_per_period": "20", "periods": "20"}
@@ -212,9 +213,13 @@ def test_limits_are_held_against_the_forces(run, repository, tmp_path):
     assert done.returncode == 0, done.stderr
     page = read_page(output)
     assert "Above the limit: 1st." in page.verdicts[0]
-    shown = {row[0]: row[3] for row in next(table for table in page.tables if table[0][0] == "Pair")[1:]}
+    heads, *rows = next(table for table in page.tables if table[0][0] == "Pair")
+    assert heads[3:5] == ["Limit", "Over limit"]
+    shown, over = ({row[0]: row[place] for row in rows} for place in (3, 4))
+    assert over == {"1st": "+0.9 dB", "2nd": "-0.8 dB", "3rd": "-", "4th": "-"}
     assert number(shown["1st"]) == pytest.approx(0.9 * forces["1st"], rel=1e-3)
     assert shown["3rd"] == shown["4th"] == "-"
+    assert set(read_limits(repository / "input" / "gearbox_limits.csv")) == set(forces)
     one = page_on(results[1:2], limits={"2nd": 1.1 * forces["2nd"]})
     assert f"within its limit of {1.1 * forces['2nd']:.4g} N" in one
     for text, words in (

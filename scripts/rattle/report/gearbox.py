@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from rattle.codes import QUANTITIES
 from rattle.figures import ranks
 from rattle.report import asked, countermeasures, motion, page, tolerance
-from rattle.report.limits import Limits
+from rattle.report.limits import Limits, excess
 from rattle.report.reference import Reference
 from rattle.result import Result
 from rattle.result_file import ResultFile
@@ -132,7 +132,7 @@ def rank_figure(
 def pairs_table(summaries: Mapping[str, Summary], limits: Limits, reference: Reference | None = None) -> str:
     """The pairs, the hardest first: verdict, force, impacts by flank, approach, inertia, and how sure."""
     forces = forces_of(summaries)
-    heads = ["Pair", "Verdict", "Film force, rms", *(["Limit"] if limits else [])]
+    heads = ["Pair", "Verdict", "Film force, rms", *(["Limit", "Over limit"] if limits else [])]
     heads += [f"re {reference.name}"] if reference else []
     heads += ["Impacts a period, drive / coast", "Approach velocity", "Inertia ratio", "How sure"]
     rows = []
@@ -141,7 +141,10 @@ def pairs_table(summaries: Mapping[str, Summary], limits: Limits, reference: Ref
         # Tables of earlier versions report of double-sided impacts alone.
         earlier: dict[bool | None, str] = {True: "double-sided impacts", False: "no double-sided impacts"}
         verdict = str(one.get("verdict", earlier.get(one.get("double_sided"), "-"))).strip()
-        limit = [page.value(limits[gear], "N", page.FEW_DIGITS) if gear in limits else "-"] if limits else []
+        limit = []
+        if limits:
+            limit.append(page.value(limits[gear], "N", page.FEW_DIGITS) if gear in limits else "-")
+            limit.append(excess(gear, forces.get(gear), limits))
         impacts = [one.get(f"impacts_per_period_{flank}") for flank in ("drive", "coast")]
         counts = " / ".join("-" if count is None else f"{count:.3g}" for count in impacts)
         speeds = [
@@ -154,7 +157,7 @@ def pairs_table(summaries: Mapping[str, Summary], limits: Limits, reference: Ref
         force = number_of(one, "film_force_rms")
         limit += [reference.level(gear, one)] if reference else []
         rows.append([gear, verdict, force, *limit, counts, speed, number_of(one, "inertia_ratio"), sure])
-    kinds = ["", "", "number", *["number"] * (bool(limits) + bool(reference))]
+    kinds = ["", "", "number", *["number"] * (2 * bool(limits) + bool(reference))]
     kinds += ["number", "number", "number", ""]
     return page.table(heads, rows, kinds=kinds, kind="dense")
 

@@ -40,3 +40,8 @@ def words(gear: str, force: float, limits: Limits) -> str:
         return ""
     place = "above" if force > limits[gear] else "within"
     return f"{place} its limit of {limits[gear]:.4g} N"
+
+
+def excess(gear: str, force: float | None, limits: Limits) -> str:
+    """By how much a force is above its limit, as in '+2.1 dB'; a dash where one of them is not known."""
+    return f"{20.0 * math.log10(force / limits[gear]):+.1f} dB" if force and gear in limits else "-"
