@@ -5,7 +5,8 @@ module lane_advance
    use lane_block, only: lane_block_t, lost_film
    use lane_force, only: turn_to
    use lane_functions, only: lanes
-   use taylor_step_control, only: evaluate_series, evaluate_slope, lane_steps, order
+   use stabilized_series, only: first_weighted, lengthen_steps, weights_of_lanes
+   use taylor_step_control, only: cut_steps, evaluate_series, evaluate_slope, film_weight, lane_steps, order
    implicit none(type, external)
    private
 
@@ -47,7 +48,8 @@ contains
 
       thinner = min(block%film(:, 0), block%backlash - block%film(:, 0))
       call lane_steps(series%last_order, series%share, block%accuracy, block%force, thinner, block%film, block%lienard, &
-                      block%damping_rate, block%remaining, block%limit, block%step)
+                      block%damping_rate, block%limit, block%step)
+      call cut_steps(block%remaining, block%step)
       call evaluate_series(block%film, block%lienard, block%step, block%next_film, block%next_lienard)
       if (series%checked_at_end) call evaluate_slope(block%lienard, block%step, next_rise)
       !$omp simd
@@ -67,7 +69,7 @@ contains
    pure subroutine take_springs_step(series, block)
       type(film_series_t), intent(in) :: series
       type(lane_block_t), intent(inout) :: block
-      real(dp) :: largest(lanes, 0:order), next_films(lanes, 2), changed(lanes, 2), undamped(lanes)
+      real(dp) :: largest(lanes, 0:order), next_films(lanes, 2), changed(lanes, 2), undamped(lanes), sum
       integer :: flanks, flank, k, l
 
       flanks = merge(2, 1, series%two_flanks)
@@ -82,16 +84,18 @@ contains
       end do
       undamped = 0.0_dp
       call lane_steps(series%last_order, series%share, block%accuracy, block%force, largest(:, 0), largest, block%lienard, &
-                      undamped, block%remaining, block%limit, block%step)
+                      undamped, block%limit, block%step)
+      if (.not. series%checked_at_end) call take_longer_steps(series, largest(:, 0), block)
+      call cut_steps(block%remaining, block%step)
       call evaluate_series(block%film, block%lienard, block%step, block%next_film, block%next_lienard)
       do flank = 1, flanks
-         block%next_compression(:, flank) = block%compression(:, flank, series%last_order)
-         !GCC$ unroll 16
-         do k = series%last_order - 1, 0, -1
-            !$omp simd
-            do l = 1, lanes
-               block%next_compression(l, flank) = block%next_compression(l, flank)*block%step(l) + block%compression(l, flank, k)
+         !$omp simd private(sum, k)
+         do l = 1, lanes
+            sum = block%compression(l, flank, order)
+            do k = order - 1, 0, -1
+               sum = sum*block%step(l) + block%compression(l, flank, k)
             end do
+            block%next_compression(l, flank) = sum
          end do
       end do
       next_films(:, 1) = block%next_film
@@ -117,6 +121,46 @@ contains
          *merge(1.0_dp, 0.0_dp, block%damping_rate < largest_series_rate)
       call check_springs(series, next_films, block)
    end subroutine take_springs_step
+
+   !> Lengthen the steps that films bound which come to rest on their springs. The velocity of a film that never pulls goes with the
+   !> logarithm of its load, so an error of it must be small beside the compression.
+   pure subroutine take_longer_steps(series, thinner, block)
+      type(film_series_t), intent(in) :: series
+      !> The thinner one of both films [-]
+      real(dp), intent(in) :: thinner(lanes)
+      type(lane_block_t), intent(inout) :: block
+      real(dp), parameter :: small = 1.0e-3_dp
+      real(dp) :: granted(lanes), chosen(lanes), weights(lanes, first_weighted:order)
+      logical :: any_chosen
+      integer :: flanks, flank, k, l
+
+      flanks = merge(2, 1, series%two_flanks)
+      granted = block%accuracy*film_weight(thinner)
+      if (series%never_pulls) then
+         do flank = 1, flanks
+            granted = min(granted, small*block%compression(:, flank, 0))
+         end do
+      end if
+      call lengthen_steps(series%share, granted, block%rest_rate, block%limit, block%films(:, :, 1), block%films(:, :, flanks), &
+                          block%lienard, block%step, chosen, any_chosen)
+      if (.not. any_chosen) return
+      weights = weights_of_lanes(chosen)
+      do k = first_weighted, order
+         !$omp simd
+         do l = 1, lanes
+            block%lienard(l, k) = weights(l, k)*block%lienard(l, k)
+            block%films(l, k, 1) = weights(l, k)*block%films(l, k, 1)
+            block%film(l, k) = block%films(l, k, 1)
+            block%compression(l, 1, k) = weights(l, k)*block%compression(l, 1, k)
+         end do
+         if (flanks < 2) cycle
+         !$omp simd
+         do l = 1, lanes
+            block%films(l, k, 2) = weights(l, k)*block%films(l, k, 2)
+            block%compression(l, 2, k) = weights(l, k)*block%compression(l, 2, k)
+         end do
+      end do
+   end subroutine take_longer_steps
 
    !> Advance all lanes whose step is accepted; the others try again with a shorter one.
    pure subroutine advance(most_steps, largest_rate, block, events)

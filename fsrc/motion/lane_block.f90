@@ -61,6 +61,8 @@ module lane_block
       real(dp) :: slip(lanes)
       !> Damping rate at the state [1/periods]
       real(dp) :: damping_rate(lanes)
+      !> Of elastic teeth: fastest rate at which a film and its spring come to rest [1/periods]
+      real(dp) :: rest_rate(lanes)
       !> Collocation: next step proposed, last step taken [periods], polynomial of the acceleration in that
       !> step, and whether the last try met a film that has no load
       real(dp) :: proposed(lanes), last_step(lanes), polynomial(lanes, stages)
@@ -214,6 +216,7 @@ contains
       block%lienard(lane, :) = 0.0_dp
       block%film(lane, 0) = 1.0_dp
       block%damping_rate(lane) = 0.0_dp
+      block%rest_rate(lane) = 0.0_dp
       block%retardation(lane) = 0.0_dp
       block%damped_share(lane) = 0.0_dp
       block%compliance(lane) = 0.0_dp

@@ -9,7 +9,7 @@ module taylor_iso_viscous
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_force, only: factor
-   use lane_functions, only: lanes
+   use lane_functions, only: half_block, lanes
    use taylor_step_control, only: inverse, order, sign_of
    implicit none(type, external)
    private
@@ -48,59 +48,70 @@ contains
       !> Derivatives of the force that oscillates [-]
       real(dp), intent(in) :: force(lanes, order)
       type(lane_block_t), intent(inout) :: block
-      !> Lane, series, flank, coefficient
-      integer, parameter :: h = 1, d = 2, r = 3, series = 3
-      real(dp) :: c(lanes, series, 2, 0:order)
-      real(dp) :: stiffness(lanes), share(lanes), twice_root(lanes, 2), product
-      integer :: once, flank, k, j, l
+      !> sqrt H: lane, order, flank
+      real(dp) :: r(half_block, 0:order, 2)
+      real(dp), dimension(half_block) :: stiffness, share, pull, turn
+      real(dp) :: twice_root(half_block, 2), product, square, opened
+      integer :: before, flank, k, j, l, m
 
-      block%damping_rate = 0.0_dp
-      stiffness = 1.0_dp/block%compliance
-      share = 1.0_dp/block%damping
-      do flank = 1, flanks
-         c(:, h, flank, 0) = block%films(:, 0, flank)
-         c(:, d, flank, 0) = block%compression(:, flank, 0)
-         c(:, r, flank, 0) = sqrt(block%films(:, 0, flank))
-         twice_root(:, flank) = 2.0_dp*c(:, r, flank, 0)
-      end do
-      ! Products with the newest coefficients come last: all others can be summed while those are still under way. gfortran unrolls
-      ! the orders before it looks for full registers only within another loop.
-      do once = 1, 1
+      do before = 0, lanes - 1, half_block
+         !$omp simd private(m)
+         do l = 1, half_block
+            m = before + l
+            stiffness(l) = 1.0_dp/block%compliance(m)
+            share(l) = 1.0_dp/block%damping(m)
+            pull(l) = -share(l)*stiffness(l)
+            block%rest_rate(m) = 0.0_dp
+            block%damping_rate(m) = 0.0_dp
+         end do
+         do flank = 1, flanks
+            !$omp simd private(m)
+            do l = 1, half_block
+               m = before + l
+               r(l, 0, flank) = sqrt(block%films(m, 0, flank))
+               twice_root(l, flank) = 2.0_dp*r(l, 0, flank)
+               turn(l) = share(l)*block%strength(m) &
+                         + pull(l)*(block%compression(m, flank, 0)*block%films(m, 0, flank))
+               block%rest_rate(m) = max(block%rest_rate(m), -turn(l)/r(l, 0, flank) &
+                                                 - twice_root(l, flank)*pull(l) &
+                                         *(block%films(m, 0, flank) + block%compression(m, flank, 0)))
+            end do
+         end do
+         ! Products with the newest coefficients come last: all others can be summed while those are still under way.
          !GCC$ unroll 24
          do k = 0, order - 1
-            !$omp simd
-            do l = 1, lanes
-               block%lienard(l, k + 1) = -factor(k + 1)*force(l, k + 1)
-               if (k == 0) block%lienard(l, 1) = block%lienard(l, 1) - block%static_load(l)
+            !$omp simd private(m)
+            do l = 1, half_block
+               m = before + l
+               block%lienard(m, k + 1) = -factor(k + 1)*force(m, k + 1)
+               if (k == 0) block%lienard(m, 1) = block%lienard(m, 1) - block%static_load(m)
             end do
             do flank = 1, flanks
-               !$omp simd private(product)
-               do l = 1, lanes
-                  block%lienard(l, k + 1) = block%lienard(l, k + 1) + (inverse(k + 1)*sign_of(flank)*stiffness(l))*c(l, d, flank, k)
+               !$omp simd private(product, square, opened, m)
+               do l = 1, half_block
+                  m = before + l
+                  block%lienard(m, k + 1) = block%lienard(m, k + 1) &
+                                            + (inverse(k + 1)*sign_of(flank)*stiffness(l))*block%compression(m, flank, k)
+                  square = 0.0_dp
+                  do j = 1, k/2
+                     square = square + r(l, j, flank)*r(l, k + 1 - j, flank)
+                  end do
+                  square = 2.0_dp*square
+                  if (mod(k, 2) == 1) square = square + r(l, shiftr(k + 1, 1), flank)*r(l, shiftr(k + 1, 1), flank)
+                  opened = square - (inverse(k + 1)*sign_of(flank))*block%lienard(m, k)
                   product = 0.0_dp
                   do j = 1, k - 1
-                     product = product + c(l, d, flank, j)*c(l, h, flank, k - j)
+                     product = product + block%compression(m, flank, j)*block%films(m, k - j, flank)
                   end do
-                  if (k > 0) product = product + c(l, d, flank, 0)*c(l, h, flank, k)
-                  product = -stiffness(l)*(product + c(l, d, flank, k)*c(l, h, flank, 0))
-                  if (k == 0) product = product + block%strength(l)
-                  c(l, r, flank, k + 1) = (inverse(k + 1)*share(l))*product
-                  product = 0.0_dp
-                  do j = 1, k/2
-                     product = product + c(l, r, flank, j)*c(l, r, flank, k + 1 - j)
-                  end do
-                  product = 2.0_dp*product
-                  if (mod(k, 2) == 1) product = product + c(l, r, flank, shiftr(k + 1, 1))*c(l, r, flank, shiftr(k + 1, 1))
-                  product = product + twice_root(l, flank)*c(l, r, flank, k + 1)
-                  c(l, h, flank, k + 1) = product
-                  c(l, d, flank, k + 1) = product - (inverse(k + 1)*sign_of(flank))*block%lienard(l, k)
+                  if (k > 0) product = product + block%compression(m, flank, 0)*block%films(m, k, flank)
+                  product = product + block%compression(m, flank, k)*block%films(m, 0, flank)
+                  if (k == 0) product = product - block%strength(m)*block%compliance(m)
+                  r(l, k + 1, flank) = (inverse(k + 1)*pull(l))*product
+                  block%films(m, k + 1, flank) = square + twice_root(l, flank)*r(l, k + 1, flank)
+                  block%compression(m, flank, k + 1) = opened + twice_root(l, flank)*r(l, k + 1, flank)
                end do
             end do
          end do
-      end do
-      do flank = 1, flanks
-         block%films(:, 1:, flank) = c(:, h, flank, 1:)
-         block%compression(:, flank, 1:) = c(:, d, flank, 1:)
       end do
    end subroutine elastic_flanks
 

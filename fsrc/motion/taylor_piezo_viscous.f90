@@ -71,6 +71,7 @@ contains
       stiffness = 1.0_dp/block%compliance
       share = 1.0_dp/block%damping
       block%lienard(:, 1) = -block%static_load - force(:, 1)
+      block%rest_rate = 0.0_dp
       do flank = 1, flanks
          !$omp simd
          do l = 1, lanes
@@ -78,6 +79,7 @@ contains
             c(l, d, flank, 0) = block%compression(l, flank, 0)
             inverse_film(l, flank) = 1.0_dp/block%films(l, 0, flank)
             inverse_spring(l, flank) = 1.0_dp/max(block%compression(l, flank, 0), shortest_rest*share(l))
+            block%rest_rate(l) = max(block%rest_rate(l), share(l)*(inverse_spring(l, flank) + 3.5_dp*inverse_film(l, flank)))
             velocity(l, flank) = share(l)*logarithm(block%strength(l)*block%compliance(l)*inverse_spring(l, flank) &
                                                     *inverse_film(l, flank)*inverse_film(l, flank)*inverse_film(l, flank) &
                                                     *sqrt(inverse_film(l, flank)))

@@ -19,7 +19,7 @@ module taylor_step_control
    !> Error that is rounding alone.
    real(dp), parameter, public :: rounding = 2.0_dp*epsilon(1.0_dp)
    !> Longest step [periods]
-   real(dp), parameter :: longest_step = 0.25_dp
+   real(dp), parameter, public :: longest_step = 0.25_dp
    !> g of the header, one over the time a Lienard variable acts where nothing damps [1/periods]
    real(dp), parameter, public :: free_rate = 2.0_dp
 
@@ -32,13 +32,12 @@ module taylor_step_control
    !> Signs of the velocity of the gear towards drive and coast flank, and of their loads on it
    real(dp), parameter, public :: sign_of(2) = [1.0_dp, -1.0_dp]
 
-   public :: lane_steps, evaluate_series, evaluate_slope, film_weight, lienard_weight
+   public :: lane_steps, cut_steps, evaluate_series, evaluate_slope, film_weight, lienard_weight
 
 contains
 
-   !> Step of every lane. The last steps of a period are cut so that its end is hit, two of equal length
-   !> rather than a long and a short one.
-   pure subroutine lane_steps(last_order, share, accuracy, force, thinner, film, lienard, damping_rate, remaining, limit, step)
+   !> Longest step of every lane.
+   pure subroutine lane_steps(last_order, share, accuracy, force, thinner, film, lienard, damping_rate, limit, step)
       !> Order n of the series
       integer, intent(in) :: last_order
       !> Share of the accuracy that a step may use up, over its length [1/periods]
@@ -55,32 +54,43 @@ contains
       real(dp), intent(in) :: lienard(lanes, 0:order)
       !> d of the header [1/periods]
       real(dp), intent(in) :: damping_rate(lanes)
-      !> What is left of the period [periods]
-      real(dp), intent(in) :: remaining(lanes)
       !> Longest step allowed after a step that failed [periods]
       real(dp), intent(in) :: limit(lanes)
-      !> Step, equal to `remaining` where the period ends with it [periods]
+      !> [periods]
       real(dp), intent(out) :: step(lanes)
-      real(dp) :: weight, level, last, next_to_last, reach, left, ends, root, next_root
+      real(dp) :: weight, level, last, next_to_last, reach, root, next_root
       integer :: l
 
       root = 1.0_dp/real(last_order - 1, dp)
       next_root = 1.0_dp/real(last_order - 2, dp)
-      !$omp simd private(weight, level, last, next_to_last, reach, left, ends)
+      !$omp simd private(weight, level, last, next_to_last, reach)
       do l = 1, lanes
-         left = remaining(l)
          weight = lienard_weight(thinner(l), damping_rate(l), force(l))
          level = coarse_log(share*max(accuracy(l)*film_weight(thinner(l)), rounding*film(l, 0)))
          last = coarse_log(max(abs(film(l, last_order)), abs(lienard(l, last_order))*weight))
          next_to_last = coarse_log(max(abs(film(l, last_order - 1)), abs(lienard(l, last_order - 1))*weight))
          reach = min((level - last)*root, (level - next_to_last)*next_root, 0.0_dp)
-         reach = min(coarse_power(reach), longest_step, limit(l))
-         ! 1 where the step ends the period, else 0, by its sign: a comparison would be compiled as a branch, and the loop
-         ! would not run in full registers.
-         ends = 0.5_dp + sign(0.5_dp, reach - left)
-         step(l) = ends*left + (1.0_dp - ends)*min(reach, 0.5_dp*left)
+         step(l) = min(coarse_power(reach), longest_step, limit(l))
       end do
    end subroutine lane_steps
+
+   !> Cut the last steps of a period so that its end is hit, two of equal length rather than a long and a short one.
+   pure subroutine cut_steps(remaining, step)
+      !> What is left of the period [periods]
+      real(dp), intent(in) :: remaining(lanes)
+      !> Longest step, then the step, equal to `remaining` where the period ends with it [periods]
+      real(dp), intent(inout) :: step(lanes)
+      real(dp) :: ends
+      integer :: l
+
+      !$omp simd private(ends)
+      do l = 1, lanes
+         ! 1 where the step ends the period, else 0, by its sign: a comparison would be compiled as a branch, and the loop
+         ! would not run in full registers.
+         ends = 0.5_dp + sign(0.5_dp, step(l) - remaining(l))
+         step(l) = ends*remaining(l) + (1.0_dp - ends)*min(step(l), 0.5_dp*remaining(l))
+      end do
+   end subroutine cut_steps
 
    !> H/(1 + H**2): the film error that counts as one [h_s].
    elemental real(dp) function film_weight(film)
