@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -471,7 +472,7 @@ def _outcome(ended: subprocess.CompletedProcess[str]) -> Solved | Gearbox:
     if ended.returncode not in (COMPLETE, SCENE_FAILED):
         kind = InputError if ended.returncode == BAD_INPUT else RunError
         raise kind(read_faults(ended.stderr), ended.returncode)
-    written = [Path(line.removeprefix("  ")) for line in ended.stdout.split("\n")]
+    written = [path for line in ended.stdout.split("\n") for path in _paths(line)]
     summaries = [path for path in written if path.name.endswith(".summary.nml")]
     if not summaries:
         raise RunError(read_faults(ended.stderr), ended.returncode, "The program left no summary.")
@@ -485,6 +486,13 @@ def _outcome(ended: subprocess.CompletedProcess[str]) -> Solved | Gearbox:
         else:
             gearbox[str(solved.summary["gear"]).strip()] = solved
     return gearbox
+
+
+def _paths(line: str) -> list[Path]:
+    """Files that a line of a log names: the whole first path, of those beside it their endings alone."""
+    first, *endings = re.sub(r"^  (files +)?", "", line).split(", .")
+    stem = first.removesuffix(".summary.nml")
+    return [Path(first), *(Path(f"{stem}.{ending}") for ending in endings)]
 
 
 def _solved(summary: Path, written: Sequence[Path]) -> Solved:
