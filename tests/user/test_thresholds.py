@@ -274,7 +274,8 @@ def test_a_signal_ends_it_without_a_result(number, rattle, run, scene_text, tmp_
     many = ["--set", "threshold.count=100000", "--set", "threshold.tolerance=1e-6"]
     process = subprocess.Popen([rattle, "--overwrite", "--quiet", *many, "scene.nml"], cwd=tmp_path)
     log = tmp_path / "results" / "scene.log"
-    until(lambda: "100000 values a trace" in log.read_text(), process)
+    # The log of the earlier run goes before that of this one comes.
+    until(lambda: log.exists() and "100000 values a trace" in log.read_text(), process)
     process.send_signal(number)
     assert process.wait(600) == 128 + number
     reported = log.read_text()
