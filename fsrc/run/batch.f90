@@ -1,6 +1,7 @@
 !> All scenes of a call: everything is checked before anything runs.
 module batch
    use automatic_model, only: choose_model, closure_instead
+   use check_report, only: resolved_lines
    use command_line, only: command_t
    use engine, only: checkpoint_t
    use earlier_files, only: check_earlier_files
@@ -17,7 +18,7 @@ module batch
    use run_film, only: run_film_task
    use run_scene, only: run_one_scene
    use run_sweep, only: run_sweep_task
-   use scene_report, only: law_sentence, resolved_lines
+   use scene_report, only: law_sentence
    use scene_status, only: is_success, status_complete, status_interrupted, status_sentence
    use scene_types, only: method_newmark, model_resolved, scene_t, task_film, task_motion, task_sweep
    use signals, only: caught_signal
