@@ -125,7 +125,7 @@ contains
       type(checkpoint_t) :: state
       type(nodal_choice_t) :: finer
       type(window_keeper_t) :: keeper
-      type(unwatched_t) :: nobody
+      type(unwatched_t) :: unwatched
       type(error_t), allocatable :: error
 
       if (is_late(choice)) then
@@ -141,7 +141,7 @@ contains
       again%request%until_steady = .false.
       call keeper%keep_windows_of(scene%resolved%problem)
       call unlock_texts()
-      call solve_nodal_scene(again, finer, keeper, nobody, state, group, error)
+      call solve_nodal_scene(again, finer, keeper, unwatched, state, group, error)
       call lock_texts()
    end subroutine solve_finer
 

@@ -102,12 +102,12 @@ contains
       type(judgement_space_t) :: space
       type(judged_scene_t) :: judged_scenes(1)
       type(window_keeper_t) :: keeper
-      type(unwatched_t) :: nobody
+      type(unwatched_t) :: unwatched
       type(checkpoint_t) :: state
 
       prepared = prepare(scene)
       call keeper%keep_windows_of(prepared%resolved%problem)
-      call solve_single(prepared, keeper, nobody, state, space, error)
+      call solve_single(prepared, keeper, unwatched, state, space, error)
       if (.not. allocated(error)) &
          call judge_scenes([prepared], needs_of_summary(scene%spectrum%verify), space, judged_scenes, error)
       judged = judged_scenes(1)

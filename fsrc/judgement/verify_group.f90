@@ -171,7 +171,7 @@ contains
       integer, intent(in) :: tight_place
       type(scene_group_t), intent(in) :: group
       type(scene_group_t), intent(in) :: tight
-      !> What the steps tell of both motions
+      !> What the steps show of both motions
       type(window_record_t), intent(in) :: record
       type(window_record_t), intent(in) :: tight_record
       type(verification_t), intent(out) :: verification

@@ -239,7 +239,7 @@ contains
          ! Samples fall short of the extreme, by (pi 100/fine)**2/2 of the range for a hundred harmonics.
          call checks%check(records(1)%highest(quantity)%value >= extremes%highest(quantity)%value - 1.0e-8_dp*size_of .and. &
             records(1)%highest(quantity)%value <= extremes%highest(quantity)%value + 1.0e-6_dp*size_of, name//': highest')
-         ! Nobody asks where the largest pressure of the film is smallest.
+         ! No quantity is where the largest pressure of the film is smallest.
          if (quantity == seen_pressure) cycle
          call checks%check(records(1)%lowest(quantity)%value <= extremes%lowest(quantity)%value + 1.0e-8_dp*size_of .and. &
             records(1)%lowest(quantity)%value >= extremes%lowest(quantity)%value - 1.0e-6_dp*size_of, name//': lowest')
