@@ -53,7 +53,8 @@ SAID = ("verdict", "rattle_class", "film_force_rms", THRESHOLD, KIND)
 SEEN_WORDS = ("verdict", "rattle_class")
 MOST_ROWS = 100
 ERRORS = (
-    "Behind \N{PLUS-MINUS SIGN} is the error that the program states. A difference is none where it is no "
+    "Behind \N{PLUS-MINUS SIGN} is the error that the program states, at least half a unit of the sixth digit; "
+    "whole counts that are verified have none. A difference is none where it is no "
     "larger than both errors together; where no error is stated, than half a unit of the sixth digit of both."
 )
 ERRORS_OF_THRESHOLDS = "Of a threshold it is half the distance between the two scenes around it."
@@ -267,6 +268,8 @@ def _meanings(entries: Iterable[Difference]) -> dict[str, page.Cell]:
 
 def _with_error(value: Any, error: float | None, unit: str) -> page.Cell:
     if error is None or value is None or isinstance(value, str | bool):
+        return _shown(value, unit)
+    if error <= 0.0 and float(value).is_integer():
         return _shown(value, unit)
     factor = next((factor for least, factor, _ in page.STEPS.get(unit, ()) if abs(value) >= least), 1.0)
     bound = page.value(factor * reported_error(error, float(value)), "", 2)  # in the unit of the value
