@@ -427,7 +427,7 @@ module quantities
       quantity_t(quantity_film_regime, 'film_regime', '-', a_code, part_regime, needs_regime, 'summary campaign', &
          'Regime of the film by its largest pressure.', 'unknown|iso-viscous|piezo-viscous|elastohydrodynamic'), &
       quantity_t(quantity_law_contradicted, 'law_contradicted', '-', a_flag, part_regime, needs_regime, 'summary campaign', &
-         'Whether the film law of the scene is not the one of its regime.'), &
+         'Whether the film law of the scene does not hold in its regime.'), &
       quantity_t(quantity_closure_range, 'closure_range', '-', a_code, part_regime, needs_closure_range, 'summary campaign', &
          'Whether loads, oil and pressures of an elastohydrodynamic film stay within those that its closure was fitted to.', &
          'within|outside'), &
