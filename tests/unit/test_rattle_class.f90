@@ -147,7 +147,8 @@ contains
       allocate (record%harmonic_sums(0:size(harmonics)), source=(0.0_dp, 0.0_dp))
       record%harmonic_sums(1:) = cmplx(harmonics, 0.0_dp, dp)
       allocate (record%harmonic_squares(0:size(harmonics)), source=abs(record%harmonic_sums)**2)
-      allocate (record%turns(0))
+      record%turns = [-sum(abs(harmonics)), sum(abs(harmonics))]
+      record%turn_count = 2
    end function record_of
 
    !> Only a motion off its harmonics that is known to repeat after several periods is subharmonic.
