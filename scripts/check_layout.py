@@ -27,7 +27,7 @@ KNOW_LAWS = {
     "fsrc/motion/film_series.f90",
     "fsrc/verdict/regime_check.f90",
     "fsrc/run/run_film.f90",
-    "fsrc/run/scene_report.f90",
+    "fsrc/run/check_report.f90",
 }
 
 # The only files below problem that name flanks or springs, by the equations that they hold. None is added;
