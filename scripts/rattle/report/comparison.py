@@ -53,8 +53,8 @@ SAID = ("verdict", "rattle_class", "film_force_rms", THRESHOLD, KIND)
 SEEN_WORDS = ("verdict", "rattle_class")
 MOST_ROWS = 100
 ERRORS = (
-    "Behind \N{PLUS-MINUS SIGN} is the error that the program states, at least half a unit of the sixth digit; "
-    "whole counts that are verified have none. A difference is none where it is no "
+    "Behind \N{PLUS-MINUS SIGN} is the error that the program states, at least half a unit of the sixth "
+    "digit; whole counts that are verified have none. A difference is none where it is no "
     "larger than both errors together; where no error is stated, than half a unit of the sixth digit of both."
 )
 ERRORS_OF_THRESHOLDS = "Of a threshold it is half the distance between the two scenes around it."
