@@ -6,8 +6,9 @@
 Gears are those of closure_errors.py, two periods from rest. Nodes and bound are those of `solver.accuracy`.
 The reference has 128 nodes and an accuracy of 1e-5. Errors are those of the largest acceleration and of the
 smallest film of both flanks, relative to themselves; goals are the accuracy and three times that.
-With --sensitive the table is of the gears whose peak no method computes as exactly: how far it moves under the
-closure where the force is larger or smaller by a millionth.
+
+With --sensitive the table is of the gears whose peak no method computes as exactly: how far it moves under
+the closure where the force is larger or smaller by a millionth.
 """
 
 from __future__ import annotations
