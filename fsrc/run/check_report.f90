@@ -132,7 +132,7 @@ contains
    end function law_advice
 
    !> The largest load to be expected, and the film law that it asks for. Where the force lifts the tooth off its flank it is that
-   !> of an impact without oil, which oil softens.
+   !> of an impact without oil, named so, which no impact through oil reaches.
    pure function largest_load_advice(scene, exact, thinner) result(line)
       type(scene_t), intent(in) :: scene
       !> It with its Reynolds iso-viscous film
@@ -140,17 +140,19 @@ contains
       !> The thinner of its films at rest [m]
       real(dp), intent(in) :: thinner
       character(:), allocatable :: line
-      character(:), allocatable :: reason
+      character(:), allocatable :: named, reason
       type(load_t) :: rest
       real(dp) :: load, pressure, static, deflection
 
       associate (film => exact%problem%contact%film, force => exact%problem%force)
          static = abs(scene%excitation%static_load())
          load = static + largest_oscillation(force)
+         named = 'expected   '
          reason = 'as the force has it'
          if (largest_oscillation(force) > static .and. exact%dry_impact > load) then
             load = exact%dry_impact
-            reason = 'an impact without oil at the speed that the force gives'
+            named = 'without oil'
+            reason = 'an impact, which oil softens'
          end if
          rest = load_at_rest(exact%problem%contact, thinner, 0.0_dp)
          pressure = hertzian_pressure(film%radius, scene%contact%length, film%modulus, load)
@@ -158,7 +160,7 @@ contains
          pressure = min(pressure, exact_pressure(film%radius, film%speed, film%viscosity, thinner, 0.0_dp)* &
                         (load/rest%load)**1.5_dp)
          deflection = contact_deflection(film%radius, pressure, film%modulus)
-         line = '! largest load expected                '//short_text(load, 3)//' N, '//reason//': alpha p '// &
+         line = '! largest load '//named//'             '//short_text(load, 3)//' N, '//reason//': alpha p '// &
                 short_text(film%pressure_viscosity*pressure, 3)//', '// &
                 fitting_law(film_regime(film%pressure_viscosity*pressure, deflection, thinner*rest%load/load))//new_line('a')
       end associate

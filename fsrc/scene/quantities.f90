@@ -419,7 +419,7 @@ module quantities
          'Largest pressure of the Reynolds iso-viscous film, or of an elastohydrodynamic film, times the pressure-viscosity '// &
          'coefficient.'), &
       quantity_t(quantity_deflection, 'deflection', 'm', a_number, part_regime, needs_regime, 'summary campaign', &
-         'Deflection (4) of the teeth at the largest pressure.'), &
+         'Hertzian deflection of the flanks at the largest pressure, equation (4).'), &
       quantity_t(quantity_deflection_share, 'deflection_share', '-', a_number, part_regime, needs_deflection, 'summary campaign', &
          'Deflection of the tooth as a share of the film, under the largest load; a rigid one as a steel tooth, 14 N/(um mm).'), &
       quantity_t(quantity_stiffness_matters, 'stiffness_matters', '-', a_flag, part_regime, needs_deflection, 'summary campaign', &

@@ -161,6 +161,15 @@ def _shown_unit(quantity: str) -> tuple[str, float]:
 
 
 _ROWS: tuple[Row, ...] = (
+    _text("verdict", "verdict"),
+    _flag("verification of the verdict", "verdict_verified", "numerically verified", "uncertain"),
+    _text("class", "rattle_class"),
+    (
+        "verification of the class",
+        lambda summary: str(summary["verification"]).strip().replace("verified", "numerically verified"),
+    ),
+    _number("film force rms", "film_force_rms", ".4g"),
+    _number("motions found", "motions", "g"),
     _text("status", "status"),
     _text("film law", "law"),
     _text("film model", "model"),
@@ -168,25 +177,18 @@ _ROWS: tuple[Row, ...] = (
     _range("coast film", "coast_film", f"#.{FILM_DIGITS}g"),
     _range("acceleration", "acceleration", ".3f"),
     _number("acceleration rms", "acceleration_rms", ".3f"),
-    _number("film force rms", "film_force_rms", ".4g"),
     _number("dissipated power", "dissipated_power", ".4g"),
     ("harmonics", lambda summary: f"{_bound(summary)}{summary['harmonic_count']}"),
     _number("harmonic distortion", "harmonic_distortion", ".4f"),
     _number("irregular fraction", "irregular_fraction", ".1e"),
     _number("reversals a period", "reversals_per_period", "g"),
-    _text("rattle class", "rattle_class"),
-    _flag("both flanks struck", "double_sided", "yes", "no"),
-    (
-        "verification",
-        lambda summary: str(summary["verification"]).strip().replace("verified", "numerically verified"),
-    ),
     (
         "error of the film",
         lambda summary: f"{stated_error(float(summary['film_error']), 1.0, FILM_DIGITS):.1e}",
     ),
     _text("motion", "orbit_stability"),
     _text("film regime", "film_regime"),
-    _flag("law fits", "law_contradicted", "no", "yes"),
+    _flag("film law fits", "law_contradicted", "no", "yes"),
     ("rigid teeth fit", _rigid_teeth_fit),
     _number("largest alpha p", "alpha_p_maximum", ".3g"),
     _number("natural frequency", "natural_frequency", ".1f"),

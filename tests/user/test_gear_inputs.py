@@ -548,12 +548,12 @@ def test_check_expects_the_law_that_the_motion_asks_for(temperature: int, check,
         "   synchroniser_diameter = 0.076, synchroniser_width = 0.008, synchroniser_gap = 0.2e-3",
     )
     text += "&film law = 'iso-viscous' /\n&solver periods = 60, accuracy = 1e-6 /\n"
-    (line,) = (line for line in check(text).stdout.splitlines() if "largest load expected" in line)
+    (line,) = (line for line in check(text).stdout.splitlines() if "largest load" in line)
     assert run("pair.nml", cwd=tmp_path).returncode == 0
     reported = summary_of(tmp_path / "results" / "pair.summary.nml")
-    load = float(re.search(r"expected +(\S+) N", line)[1])
+    load = float(re.search(r"(?:expected|without oil) +(\S+) N", line)[1])
     lifted = reported["inertia_ratio"] > 1.0
-    assert ("an impact without oil" in line) == lifted
+    assert ("largest load without oil" in line) == lifted
     mass, frequency = reported["mass"], reported["frequency"]
     speed = reported["force_amplitudes"] / (2.0 * math.pi * frequency * mass)
     dry = speed * math.sqrt(mass * reported["stiffness"])

@@ -25,7 +25,9 @@ SUMMARY = {
     "dissipated_power": "0.50282",
     "coast_film_minimum": "3.25e-6",
     "coast_film_maximum": "8.5e-6",
-    "double_sided": ".true.",
+    "verdict": "'double-sided impacts'",
+    "verdict_verified": ".false.",
+    "motions": "2",
     "harmonic_count": "30",
     "harmonic_distortion": "0.98761",
     "irregular_fraction": "1.5e-12",
@@ -44,6 +46,11 @@ SUMMARY = {
 }
 SHOWN = {
     "": "idle",
+    "verdict": "double-sided impacts",
+    "verification of the verdict": "uncertain",
+    "class": "idle",
+    "verification of the class": "numerically verified",
+    "motions found": "2",
     "status": "complete",
     "film law": "iso-viscous",
     "film model": "published",
@@ -53,17 +60,14 @@ SHOWN = {
     "film force rms [N]": "212.4",
     "dissipated power [W]": "0.5028",
     "coast film [um]": "3.2500 to 8.5000",
-    "both flanks struck": "yes",
     "harmonics": "30",
     "harmonic distortion": "0.9876",
     "irregular fraction": "1.5e-12",
     "reversals a period": "4.5",
-    "rattle class": "idle",
-    "verification": "numerically verified",
     "error of the film": "5.0e-05",
     "motion": "stable",
     "film regime": "piezo-viscous",
-    "law fits": "no",
+    "film law fits": "no",
     "rigid teeth fit": "no",
     "largest alpha p": "0.826",
     "natural frequency [Hz]": "812.3",
@@ -86,10 +90,10 @@ def test_every_row_shows_its_own_number_in_its_unit(tmp_path):
 
 
 def test_scenes_stand_side_by_side_and_what_is_unknown_is_a_dash(tmp_path):
-    first = write(tmp_path / "a.summary.nml", ("double_sided",), name="'a'")
+    first = write(tmp_path / "a.summary.nml", ("dissipated_power",), name="'a'")
     second = write(
         tmp_path / "b.summary.nml",
-        ("name", "film_maximum", "steady_film", "orbit_stability", "double_sided"),
+        ("name", "film_maximum", "steady_film", "orbit_stability", "dissipated_power"),
         law_contradicted=".false.",
     )
     done = call_script("compare.py", first, second, "--markdown")
@@ -100,8 +104,17 @@ def test_scenes_stand_side_by_side_and_what_is_unknown_is_a_dash(tmp_path):
     assert cells["film thickness [um]"] == ["0.51230 to 1.5000", "-"]
     assert cells["steady film [um]"] == ["0.8889", "-"]
     assert cells["motion"] == ["stable", "-"]
-    assert cells["law fits"] == ["no", "yes"]
-    assert "both flanks struck" not in cells
+    assert cells["film law fits"] == ["no", "yes"]
+    assert "dissipated power [W]" not in cells
+
+
+def test_the_table_of_the_page_on_the_paper_is_what_the_program_finds(run, repository, tmp_path) -> None:
+    scenes = [repository / "input" / f"{name}.nml" for name in ("idle", "creep")]
+    assert run("--quiet", *scenes, cwd=tmp_path).returncode == 0
+    paths = [tmp_path / "results" / f"{scene.stem}.summary.nml" for scene in scenes]
+    lines = table.plain(comparison_table([rattle.read_summary(path) for path in paths])).splitlines()
+    page = (repository / "input" / "PAPER.md").read_text().splitlines()
+    assert [line[4:] for line in page if line.startswith("    ")][-len(lines) :] == lines
 
 
 @pytest.mark.parametrize(

@@ -163,6 +163,20 @@ def test_the_page_and_the_csv_file_say_the_same(boxes, tmp_path) -> None:
 
 
 @pytest.mark.usefixtures("undrawn")
+def test_what_differs_in_one_variant_is_shown_of_all(boxes, tmp_path) -> None:
+    """A variant that does not differ there has its number and 'none', as if it were compared alone."""
+    again = shutil.copytree(boxes["base"].parent, tmp_path / "again")
+    page = tmp_path / "three.html"
+    paths = [boxes["base"], boxes["halved"], again / "gearbox.summary.nml"]
+    code, _, complained = called_here("compare.py", *paths, "--output", page, cwd=tmp_path)
+    assert (code, complained) == (0, "")
+    rows = [row for row in read_page(page).rows if len(row) == 6 and row[0] != "Quantity"]
+    assert len(rows) > 100 and any(row[3] not in ("none", "-") for row in rows)
+    for row in rows:
+        assert (row[4], row[5]) == (row[1], "-" if row[1] == "-" else "none"), row
+
+
+@pytest.mark.usefixtures("undrawn")
 def test_the_page_of_a_result_beside_itself_says_so(boxes, tmp_path) -> None:
     series = boxes["base"].with_name("gearbox.1st.rattle")
     code, _, complained = called_here(

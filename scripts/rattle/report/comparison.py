@@ -140,8 +140,12 @@ def _motions(base: Variant, others: Sequence[Variant]) -> list[str]:
     entries = [entry for other in others for entry in answer_differences(base, other)]
     seen = [entry for entry in entries if entry.name in SEEN and entry.part == "answer"]
     seen += [entry for entry in entries if entry.part == "together"]
+    # Of what differs in one variant the others are shown too, alike or not.
+    changed = {(entry.gear, entry.name) for entry in entries if not entry.same}
     rest = [
-        entry for entry in entries if entry.part == "answer" and entry.name not in SEEN and not entry.same
+        entry
+        for entry in entries
+        if entry.part == "answer" and entry.name not in SEEN and (entry.gear, entry.name) in changed
     ]
     sentences = [words for other in others for words in _sentences(other, seen, entries)]
     differs = any(not entry.same for entry in entries)
