@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rattle import command, outputs, table
+from rattle.campaign_plan import GEAR
 from rattle.comparison.variant import grouped
 
 if TYPE_CHECKING:
@@ -63,19 +64,23 @@ def main() -> None:
 
 
 def run_up(options: argparse.Namespace, function: Transfer) -> None:
-    """A run-up, whose result is a campaign over speed."""
+    """A run-up, whose results are a campaign over speed, or sweeps over it, one of each pair."""
     import rattle
     from rattle.sound import run_up, track
 
-    if len(options.results) != 1:
-        raise command.CommandError("--rate takes one result, a campaign or sweep over shaft.speed_rpm.")
-    result = rattle.read(options.results[0])
-    if result.task == "sweep":
+    results = [rattle.read(path) for path in options.results]
+    sweeps = {str(one.input.get(GEAR, {}).get("name", "")).strip(): one for one in results}
+    if len(results) != 1 and (len(sweeps) < len(results) or any(one.task != "sweep" for one in results)):
+        raise command.CommandError(
+            "--rate takes one run-up: a campaign over shaft.speed_rpm, or a sweep over it of each pair."
+        )
+    if results[0].task == "sweep":
         if options.rate < 0.0:
             raise command.CommandError("A sweep is heard the ways it went; --rate is above 0.")
-        command.note_open(result)
-        ways, left_out = run_up.driven_motions(result)
-        found, said = run_up.heard_driven(ways, options.rate, function), driven_words(result)
+        for result in sweeps.values():
+            command.note_open(result)
+        ways, left_out = run_up.driven_motions(sweeps)
+        found, said = run_up.heard_driven(ways, options.rate, function), driven_words([*sweeps.values()])
     else:
         motions, left_out = run_up.solved_motions(rattle.read_campaign(options.results[0]))
         found, said = run_up.heard(motions, options.rate, function), QUASI_STEADY
@@ -97,14 +102,15 @@ def run_up(options: argparse.Namespace, function: Transfer) -> None:
     print(options.output)
 
 
-def driven_words(result: Result) -> str:
-    """How slow the run-up of a sweep has to be."""
+def driven_words(sweeps: Sequence[Result]) -> str:
+    """How slow the run-up of sweeps has to be: as slow as the slowest of them asks for."""
     from rattle.run_up import is_run_up, pace
 
-    rates = pace(result) if is_run_up(result) else None
-    if rates is None or rates.slowest is None:
+    paces = [pace(result) for result in sweeps if is_run_up(result)]
+    slowest = [rates.rates[rates.slowest] for rates in paces if rates.slowest is not None]
+    if len(slowest) < len(sweeps):
         return f"{DRIVEN}."
-    return f"{DRIVEN}, which a run-up has at {rates.rates[rates.slowest]:.3g} 1/min/s or slower."
+    return f"{DRIVEN}, which a run-up has at {min(slowest):.3g} 1/min/s or slower."
 
 
 def rows(found: list) -> list[list[str]]:
@@ -190,8 +196,8 @@ def parse_options() -> argparse.Namespace:
         "--rate",
         type=rate,
         metavar="1/MIN/S",
-        help="of a run-up, down where it is below 0; RESULT is then a campaign or sweep over "
-        "shaft.speed_rpm; a sweep is heard the ways it went",
+        help="of a run-up, down where it is below 0; RESULT is then a campaign over shaft.speed_rpm, or the "
+        "sweeps over it of all pairs; a sweep is heard the ways it went",
     )
     parser.add_argument(
         "--full-scale",

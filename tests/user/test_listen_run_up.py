@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from scipy.io import wavfile
 from script_calls import called_here
 
 import rattle as package
+from rattle.command import CommandError
 from rattle.sound import levels, pressure, run_up
 
 SPEEDS = package.Range(900.0, 1200.0, 4)
@@ -95,7 +97,7 @@ def test_level_of_the_table_is_a_weighted(heard, campaign, repository, rattle) -
     assert float(line[-1]) == pytest.approx(level, abs=1.0)
 
 
-def test_what_is_no_run_up_is_refused(campaign, repository, rattle, tmp_path) -> None:
+def test_what_is_no_run_up_is_refused(campaign, driven, repository, rattle, tmp_path) -> None:
     other = package.campaign(
         repository / "input" / "rattling_gear.nml",
         {"gear.backlash": [6e-5, 8e-5]},
@@ -106,7 +108,9 @@ def test_what_is_no_run_up_is_refused(campaign, repository, rattle, tmp_path) ->
     output = ("--output", tmp_path / "x.wav")
     for given, words in (
         ((other, "--rate", "50", *output), "varies shaft.speed_rpm alone"),
-        ((campaign, campaign, "--rate", "50", *output), "takes one result"),
+        ((campaign, campaign, "--rate", "50", *output), "takes one run-up"),
+        ((campaign, driven[0].path, "--rate", "50", *output), "takes one run-up"),
+        ((driven[0].path, driven[0].path, "--rate", "50", *output), "takes one run-up"),
         ((campaign, "--rate", "0", *output), "a rate other than 0"),
         ((campaign, "--rate", "0.1", *output), "The run-up takes 3000 s at 0.1 1/min/s"),
         ((campaign, *output), "needs the series of a motion"),
@@ -167,6 +171,43 @@ def test_a_motion_that_is_not_that_of_the_sweep_is_left_out(driven, monkeypatch)
     """Each from rest, not from the one before: at 2120 and 2160 1/min a way then has that of the other."""
     result, _, _ = driven
     monkeypatch.setattr(run_up, "ENDING", {})
-    ways, left_out = run_up.driven_motions(result)
+    ways, left_out = run_up.driven_motions({"": result})
     assert left_out == [2160.0, 2120.0]
     assert [one.speed for one in ways[0]] == [2080.0, 2120.0, 2200.0]
+
+
+@pytest.fixture(scope="module")
+def box(rattle, repository, tmp_path_factory) -> Path:
+    """Sweeps of the ready gear and of one with less backlash, up and back: the folder with their results."""
+    folder = tmp_path_factory.mktemp("box")
+    text = (repository / "input" / "gearbox_run_up.nml").read_text()
+    gear = text[text.index("&gear") : text.index("&shaft")]
+    other = gear.replace("'2nd'", "'other'").replace("9.0e-5", "7.0e-5")
+    (folder / "box.nml").write_text(text.replace(gear, gear + other))
+    shutil.copy(repository / "input" / "gearbox_run_up.csv", folder)
+    given = {"sweep.first": 1000.0, "sweep.last": 1200.0, "sweep.count": 3}
+    package.run(folder / "box.nml", set=given, folder=folder / "results", program=rattle)
+    return folder / "results"
+
+
+def test_sweeps_of_all_pairs_sound_together(box, tmp_path) -> None:
+    """Forces of both are in the sound; alone each has its own table, of the same motions."""
+    (tmp_path / "flat.csv").write_text(FLAT)
+    pairs = sorted(box.glob("box.*.rattle"))
+    assert len(pairs) == 2
+    rms, sounds = [], []
+    for place, given in enumerate(([pairs[0]], [pairs[1]], pairs)):
+        output = tmp_path / f"{place}.wav"
+        asked = ("--rate", "100", "--transfer", tmp_path / "flat.csv", "--full-scale", "100")
+        code, said, complained = called_here("listen.py", *given, *asked, "--output", output, cwd=tmp_path)
+        assert code == 0 and "Left out" not in complained, complained
+        rms.append([float(line.split()[2]) for line in said.splitlines() if line[:1].isdigit()])
+        sounds.append(wavfile.read(output)[1].astype(float))
+    assert np.hypot(rms[0], rms[1]) == pytest.approx(rms[2], rel=1e-3)  # four digits are printed
+    assert np.abs(sounds[0] + sounds[1] - sounds[2]).max() <= 1e-6 * np.abs(sounds[2]).max()
+
+
+def test_sweeps_that_went_other_ways_are_refused(box, driven, tmp_path) -> None:
+    ways = {"1": package.read(sorted(box.glob("box.*.rattle"))[0]), "2": driven[0]}
+    with pytest.raises(CommandError, match="have not gone over the same speeds"):
+        run_up.driven_motions(ways)

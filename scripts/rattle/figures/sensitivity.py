@@ -25,12 +25,22 @@ KINDS = (("alone", "first", style.RUN_COLOURS[0]), ("with all others", "total", 
 def draw(campaign: Campaign, studies: Sequence[Study]) -> Figure:
     """A row of panels for each pair, a panel for each quantity, a pair of bars for each key."""
     figure, panels = _panels(studies, [study.found for study in studies], _bars, BAR)
-    panels[0, 0].set_xlim(0.0, 1.1)
+    panels[0, 0].set_xlim(*_limits(studies))
     panels[-1, 0].set_xticks([0.0, 0.5, 1.0])
     panels[-1, panels.shape[1] // 2].set_xlabel("Share of the variance [-]")
     style.legend_below(figure, panels[0, 0], 2)
     figure.suptitle(f"{campaign.name}: share of the variance that each key explains", fontsize=9.5)
     return figure
+
+
+def _limits(studies: Sequence[Study]) -> tuple[float, float]:
+    """From 0 to 1, or as far as estimates and their intervals go."""
+    ends = [0.0, 1.07]
+    for found in (one for study in studies for one in study.found):
+        for _, name, _ in KINDS:
+            values, errors = getattr(found, name), getattr(found, f"{name}_error")
+            ends += [np.nanmin(values - errors), np.nanmax(values + errors)]
+    return min(ends) - 0.03, max(ends) + 0.03
 
 
 def draw_directions(campaign: Campaign, studies: Sequence[Study]) -> Figure:
@@ -85,7 +95,8 @@ def _label(study: Study) -> str:
 
 
 def _bars(axes: Axes, found: Indices) -> None:
-    """Estimates scatter below 0 and above 1; bars end there, intervals go on."""
+    """Estimates scatter below 0 and above 1."""
+    axes.axvline(0.0, color="black", linewidth=0.6)
     places = np.arange(len(found.first))
     for offset, (label, name, colour) in zip((-0.2, 0.2), KINDS, strict=True):
         values, errors = getattr(found, name), getattr(found, f"{name}_error")

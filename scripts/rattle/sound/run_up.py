@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 import os
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -117,40 +117,58 @@ def _force(path: Path) -> ForceHarmonics | None:
     return force_harmonics(solved, HIGHEST)
 
 
-def driven_motions(result: Result) -> tuple[list[list[SpeedMotion]], list[float]]:
-    """The motions of a sweep over speed, way by way, and the speeds whose motion is not found again.
+def driven_motions(sweeps: Mapping[str, Result]) -> tuple[list[list[SpeedMotion]], list[float]]:
+    """The motions of sweeps over speed, one of each pair, way by way, and speeds of which one is not found.
 
     Each is solved again from the end of the one before, as the sweep has done. The way back begins with the
-    last motion of the way there. Raises CommandError where a way has fewer than two motions.
+    last motion of the way there. Raises CommandError where a way has fewer than two motions, or sweeps have
+    not gone the same way.
     """
-    if result.names[0] != SPEED or first_order(result) is None:
-        raise CommandError(f"{result.path}: a driven run-up is a sweep over {KEY}, as gearbox_run_up.nml.")
+    first, *others = sweeps.values()
+    for result in sweeps.values():
+        if result.names[0] != SPEED or first_order(result) is None:
+            raise CommandError(
+                f"{result.path}: a driven run-up is a sweep over {KEY}, as gearbox_run_up.nml."
+            )
+    for result in others:
+        if not all(np.array_equal(result[name], first[name]) for name in (SPEED, "direction")):
+            raise CommandError(f"{first.path} and {result.path} have not gone over the same speeds.")
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        found = dict(zip(sweeps, pool.map(_driven_forces, sweeps.values()), strict=True))
     ways: list[list[SpeedMotion]] = [[]]
     left_out: list[float] = []
+    for row, (speed, way) in enumerate(zip(first[SPEED].tolist(), first["direction"], strict=True)):
+        if row and way != first["direction"][row - 1]:
+            ways.append(ways[-1][-1:])
+        forces = {gear: force for gear, of_rows in found.items() if (force := of_rows[row]) is not None}
+        if len(forces) == len(found):
+            ways[-1].append(SpeedMotion(speed, forces))
+        else:
+            left_out.append(speed)
+    if min(map(len, ways)) < 2:
+        raise CommandError(f"{first.path}: fewer than two speeds of a way have motions.")
+    return ways, left_out
+
+
+def _driven_forces(result: Result) -> list[ForceHarmonics | None]:
+    """The force of each motion of a sweep; None where that of the sweep is not found again."""
+    forces: list[ForceHarmonics | None] = []
     ending: dict[str, float] = {}
-    way = 1.0
     with tempfile.TemporaryDirectory(prefix="rattle-") as place:
         files = rerun.motion_of_sweep(result, Path(place))
         outputs.write(files, overwrite=False)
-        for row in range(result.row_count):
-            speed = float(result[SPEED][row])
-            if result["direction"][row] != way:
-                way = float(result["direction"][row])
-                ways.append(ways[-1][-1:])
+        for row, speed in enumerate(result[SPEED].tolist()):
             try:
                 solved = run(files[0][0], set={**SETTINGS, **OF_SWEEPS, KEY: speed, **ending}, threads=1)
             except SceneFailed:
-                solved, ending = None, {}
-            else:
-                assert isinstance(solved, Solved) and isinstance(solved.result, Result)
-                ending = {key: float(solved.result[name][-1]) for key, name in ENDING.items()}
-            if solved is not None and _is_that_of(solved, result, row):
-                ways[-1].append(SpeedMotion(speed, {"": force_harmonics(solved, HIGHEST)}))
-            else:
-                left_out.append(speed)
-    if min(map(len, ways)) < 2:
-        raise CommandError(f"{result.path}: fewer than two speeds of a way have motions.")
-    return ways, left_out
+                ending = {}
+                forces.append(None)
+                continue
+            assert isinstance(solved, Solved) and isinstance(solved.result, Result)
+            ending = {key: float(solved.result[name][-1]) for key, name in ENDING.items()}
+            same = _is_that_of(solved, result, row)
+            forces.append(force_harmonics(solved, HIGHEST) if same else None)
+    return forces
 
 
 def _is_that_of(solved: Solved, result: Result, row: int) -> bool:
