@@ -1,10 +1,10 @@
 !> Longer steps of a Taylor series whose motion has a part that comes to rest much faster than the rest of it moves
 !> (fsrc/THEORY.md, section 5).
 !>
-!> A series of order 14 follows a part that decays at a rate lambda over 6.5/lambda at most: beyond, its last terms grow, however small that
-!> part is. With weights for the terms above order p their sum stays bounded over S/lambda, and exact to order p. The weights make the
-!> longest S. Those of the error make it begin with the first term that is not exact, and count what decays as little as they can.
-!> scripts/generate/stabilized_weights.py finds both.
+!> A series of order 14 follows a part that decays at a rate lambda over 6.5/lambda at most: beyond, its last terms grow, however
+!> small that part is. With weights for the terms above order p their sum stays bounded over S/lambda, and exact to order p. The
+!> weights make the longest S. Those of the error make it begin with the first term that is not exact, and count what decays as
+!> little as they can. scripts/generate/stabilized_weights.py finds both.
 module stabilized_series
    use kinds, only: dp
    use lane_functions, only: coarse_log, coarse_power, lanes
