@@ -206,7 +206,7 @@ def run(
 def sweep(
     input: Input,
     key: str | None = None,
-    first: float | None = None,
+    first: float | Range | None = None,
     last: float | None = None,
     *,
     set: Mapping[str, Any] | None = None,
@@ -224,7 +224,7 @@ def sweep(
     key
         Name of the key without its group, as 'frequency'.
     first, last
-        Range of the key, in its unit.
+        Range of the key, in its unit; or a `Range` as `first`, which has ends, count and scale.
     set
         Keys with the values that they get instead of those of the input, as 'group.key' or by group; 'gear'
         means all pairs of the input, 'gear(2)' its second.
@@ -255,6 +255,7 @@ def sweep(
     >>> len(down.result["frequency"])
     21
     """
+    first, last, count, spacing = _ends(first, last, count, spacing)
     given = {"key": key, "first": first, "last": last, "count": count, "spacing": spacing, "turn": turn}
     asked = {f"sweep.{name}": value for name, value in given.items() if value is not None}
     return run(input, set={"scene.task": "sweep", **asked, **(set or {})}, **options)
@@ -325,7 +326,7 @@ def campaign(
 def threshold(
     input: Input,
     key: str | None = None,
-    first: float | None = None,
+    first: float | Range | None = None,
     last: float | None = None,
     *,
     set: Mapping[str, Any] | None = None,
@@ -346,7 +347,7 @@ def threshold(
     key
         The key along which is searched, as 'load.force_amplitude'.
     first, last
-        Range of the key, in its unit.
+        Range of the key, in its unit; or a `Range` as `first`, which has ends, count and scale.
     set
         Keys with the values that they get instead of those of the input, as 'group.key' or by group; 'gear'
         means all pairs of the input, 'gear(2)' its second.
@@ -377,6 +378,7 @@ def threshold(
     RunError
         Everything else, such as a full disk.
     """
+    first, last, count, scale = _ends(first, last, count, scale)
     given = {"key": key, "first": first, "last": last, "criterion": criterion, "level": level, "scale": scale}
     given |= {"count": count, "tolerance": tolerance}
     asked = {f"threshold.{name}": value for name, value in given.items() if value is not None}
@@ -394,6 +396,17 @@ def find_program() -> str:
     if found is None:
         raise RunError([], BAD_INPUT, "There is no program rattle: run make, or name it as $RATTLE_PROGRAM.")
     return found
+
+
+def _ends(
+    first: float | Range | None, last: float | None, count: int | None, scale: str | None
+) -> tuple[float | None, float | None, int | None, str | None]:
+    """First and last value, count and scale, of a `Range` where one is given."""
+    if not isinstance(first, Range):
+        return first, last, count, scale
+    if any(value is not None for value in (last, count, scale)):
+        raise TypeError("A Range has its last value, count and scale: leave these arguments out.")
+    return first.first, first.last, first.count, first.scale
 
 
 def _keys_set(given: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:

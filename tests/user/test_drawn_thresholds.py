@@ -355,18 +355,13 @@ def test_every_cell_of_the_report_is_that_of_the_result(tmp_path):
 
 
 def test_thresholds_from_python_and_as_a_table(groups, tmp_path):
-    found = package.threshold(
-        groups,
-        "load.force_amplitude",
-        5.0,
-        455.0,
-        vary={"kinematics.entrainment_speed": [1.0, 2.0]},
-        criterion="quiet",
-        tolerance=0.01,
-        set=BASE_KEYS,
-        folder=tmp_path,
-    )
+    asked = {"criterion": "quiet", "tolerance": 0.01, "set": BASE_KEYS, "folder": tmp_path}
+    asked["vary"] = {"kinematics.entrainment_speed": [1.0, 2.0]}
+    found = package.threshold(groups, "load.force_amplitude", 5.0, 455.0, **asked)
     frame = found.result.frame()
+    ends = package.Range(5.0, 455.0)
+    again = package.threshold(groups, "load.force_amplitude", ends, overwrite=True, **asked)
+    assert again.result.frame().equals(frame)
     assert frame["trace"].tolist() == [1.0, 2.0] and found.summary["crossings"] == 2
     assert frame["rattle_class_below_word"].tolist() == ["quiet", "quiet"]
     assert set(frame["status_above_word"]) <= {"complete", "steady"}

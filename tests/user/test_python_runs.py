@@ -239,6 +239,11 @@ def test_a_sweep_goes_there_and_back():
     assert set(frame.rattle_class_word) <= set(codes.CLASSES.values())
     result, _ = rattle.sweep(scene, "frequency", 500.0, 700.0, count=3, turn=False, spacing="logarithmic")
     np.testing.assert_allclose(result["frequency"], np.geomspace(500.0, 700.0, 3))
+    ends = rattle.Range(500.0, 700.0, 3, scale="logarithmic")
+    again, _ = rattle.sweep(scene, "frequency", ends, turn=False)
+    assert again.frame().equals(result.frame())
+    with pytest.raises(TypeError, match="A Range has its last value"):
+        rattle.sweep(scene, "frequency", ends, 700.0)
 
 
 def test_frames_and_datasets_hold_the_columns_with_units(file):
