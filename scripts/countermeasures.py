@@ -51,15 +51,13 @@ def draw(
 ) -> list[Path]:
     """Write a figure for each pair, and the tables with them."""
     from rattle.figures import countermeasures, style  # matplotlib only where something was found
+    from rattle.figures.options import by_default
 
-    options.format, options.dpi = ("png", "pdf"), 200
-    options.width = options.font_size = options.xlim = options.ylim = None
-    options.no_title = False
     with style.house_style():
         stem = f"countermeasures_{name}"
         stems = [f"{stem}.{pair.name}" if len(pairs) > 1 else stem for pair in pairs]
         figures = [(stem, countermeasures.draw(pair)) for stem, pair in zip(stems, pairs, strict=True)]
-        return style.save(figures, options, files)
+        return style.save(figures, by_default(options.output, options.overwrite), files)
 
 
 def new_range(text: str) -> tuple[str, tuple[float, float]]:

@@ -10,6 +10,7 @@ from pathlib import Path
 import rattle
 from rattle import command, outputs, sensitivity, table
 from rattle.figures import style
+from rattle.figures.options import by_default
 from rattle.figures.sensitivity import draw, draw_directions
 
 
@@ -60,7 +61,7 @@ def analyse() -> int:
         metavar="NAMES",
         help="what is analysed, between commas",
     )
-    parser.add_argument("--output", type=Path, metavar="FOLDER", help="draw bars there, as PNG and PDF")
+    parser.add_argument("--output", type=Path, metavar="FOLDER", help="draw bars there")
     outputs.add_option(parser)
     options = command.parse(parser)
     campaign = rattle.read_campaign(options.result)
@@ -73,12 +74,9 @@ def analyse() -> int:
     if any(study.directions for study in found):
         figures.append((f"directions_{campaign.name}", draw_directions))
     if options.output and figures:
-        options.format, options.dpi = ("png", "pdf"), 200
-        options.width = options.font_size = options.xlim = options.ylim = None
-        options.no_title = False
         with style.house_style():
             drawn = [(stem, maker(campaign, found)) for stem, maker in figures]
-            for path in style.save(drawn, options):
+            for path in style.save(drawn, by_default(options.output, options.overwrite)):
                 print(path)
     return command.COMPLETE
 

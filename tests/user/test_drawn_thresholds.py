@@ -191,7 +191,7 @@ def test_curves_lie_over_the_map_that_they_divide(tmp_path):
     result = written(tmp_path / "edge.rattle")
     done = call_script("plot.py", "threshold", result.path, "--map", path, "--output", tmp_path / "out")
     assert done.returncode == 0, done.stderr
-    assert sorted(contents(tmp_path / "out")) == ["threshold_edge.pdf", "threshold_edge.png"]
+    assert sorted(contents(tmp_path / "out")) == ["threshold_edge.png"]
     section = threshold.behind(thresholds(result), path, {})
     made = figure(result, section=section)
     assert [axis.key for axis in section.free] == [SPEED, FORCE]

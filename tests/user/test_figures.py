@@ -33,9 +33,9 @@ def piezo(tmp_path) -> Path:
 @pytest.mark.long
 def test_one_run_of_each_law_gives_the_set_of_the_paper(iso, piezo, tmp_path):
     output = tmp_path / "figures"
-    done = call_script("plot.py", "motion", iso, piezo, "--output", output)
+    done = call_script("plot.py", "motion", iso, piezo, "--format", "png,pdf", "--output", output)
     assert done.returncode == 0, done.stderr
-    assert figure_stems(output) == PAPER
+    assert figure_stems(output) == sorted(path.stem for path in output.glob("*.pdf")) == PAPER
     assert len(done.stdout.splitlines()) == 2 * len(PAPER)
     for path in output.glob("*.png"):
         picture = imread(path)
@@ -49,7 +49,8 @@ def test_one_run_of_each_law_gives_the_set_of_the_paper(iso, piezo, tmp_path):
 def test_same_results_give_the_same_bytes(iso, piezo, tmp_path):
     outputs = [tmp_path / "first", tmp_path / "second"]
     for output, zone in zip(outputs, ("UTC", "Asia/Tokyo"), strict=True):
-        assert call_script("plot.py", "motion", iso, piezo, "--output", output, TZ=zone).returncode == 0
+        given = ("motion", iso, piezo, "--format", "png,pdf", "--output", output)
+        assert call_script("plot.py", *given, TZ=zone).returncode == 0
     for first in outputs[0].iterdir():
         assert first.read_bytes() == (outputs[1] / first.name).read_bytes(), first.name
 

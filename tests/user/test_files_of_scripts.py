@@ -103,10 +103,10 @@ def test_a_measured_cycle_is_not_replaced_by_its_export(tmp_path):
 
 def test_one_figure_that_is_there_keeps_all_from_being_drawn(motion, tmp_path):
     (tmp_path / "out").mkdir()
-    (tmp_path / "out" / "figure_10a_idle.pdf").write_bytes(b"the last of them")
+    (tmp_path / "out" / "figure_10a_idle.png").write_bytes(b"the last of them")
     before = contents(tmp_path)
     code, _, complaint = called_here("plot.py", "motion", motion, "--output", "out", cwd=tmp_path)
-    assert code == 2 and f"out/figure_10a_idle.pdf {EXISTS}" in complaint
+    assert code == 2 and f"out/figure_10a_idle.png {EXISTS}" in complaint
     assert contents(tmp_path) == before
 
 

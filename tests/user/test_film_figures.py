@@ -33,7 +33,7 @@ def test_a_film_task_gives_the_figures_of_the_paper(film, tmp_path):
     done = call_script("plot.py", "film", film, "--output", tmp_path / "figures")
     assert done.returncode == 0, done.stderr
     assert stems(tmp_path / "figures") == PAPER
-    assert len(done.stdout.splitlines()) == 2 * len(PAPER)
+    assert len(done.stdout.splitlines()) == len(PAPER)
 
 
 def test_profiles_may_be_named_in_place_of_the_table(film, tmp_path):

@@ -81,9 +81,7 @@ def test_indices_of_a_product(run, tmp_path: Path) -> None:
         assert abs(reported[key][2] - total) <= 1.5 * reported[key][3] + 5e-4, key
         assert reported[key][1] < 0.35 and reported[key][3] < 0.35
     assert sorted(path.name for path in (tmp_path / "figures").iterdir()) == [
-        "directions_pair_design.pdf",
         "directions_pair_design.png",
-        "sensitivity_pair_design.pdf",
         "sensitivity_pair_design.png",
     ]
 

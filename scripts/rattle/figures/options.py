@@ -20,9 +20,10 @@ def common_options() -> argparse.ArgumentParser:
     group.add_argument(
         "--format",
         type=formats,
-        default=("png", "pdf"),
+        # A second one takes longer than all else that drawing does.
+        default=("png",),
         metavar="NAMES",
-        help=f"of {', '.join(FORMATS)} (png,pdf)",
+        help=f"of {', '.join(FORMATS)} (png)",
     )
     group.add_argument(
         "--width",
@@ -38,6 +39,13 @@ def common_options() -> argparse.ArgumentParser:
     group.add_argument("--ylim", type=limits, metavar="LO,HI", help="limits of the y axis of the first panel")
     group.add_argument("--dpi", type=command.positive, default=200, metavar="N", help="dots an inch (200)")
     return common
+
+
+def by_default(output: Path, overwrite: bool) -> argparse.Namespace:
+    """All of them as they are without an option, for scripts that have none but where files go."""
+    options = common_options().parse_args([])
+    options.output, options.overwrite = output, overwrite
+    return options
 
 
 def formats(text: str) -> tuple[str, ...]:
