@@ -41,7 +41,8 @@ ifneq ($(findstring flang,$(FC)),)
   DEBUG_FLAGS := -O1 -g -fopenmp -fPIC
 else
   WARNINGS := -std=f2018 -Wall -Wextra $(if $(STRICT),-Werror)
-  RELEASE_FLAGS := -O3 $(ARCHITECTURE) -fno-math-errno -fno-trapping-math -flto=auto -fopenmp -fPIC
+  RELEASE_FLAGS := -O3 $(ARCHITECTURE) -fno-math-errno -fno-trapping-math -flto=auto -fopenmp -fPIC \
+    $(if $(PROFILE),-fno-omit-frame-pointer)
   DEBUG_FLAGS := -O1 -g -fcheck=all,no-array-temps -finit-real=snan -ffpe-trap=invalid,overflow,zero -fbacktrace -fopenmp -fPIC
   LANE_FLAGS := $(if $(DEBUG),,-fno-inline)
   ELEMENTARY_FLAGS := -finline-limit=4000
@@ -79,7 +80,7 @@ STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
 VPATH := $(addprefix fsrc/,$(FOLDERS)) fsrc tests/unit tests/benchmarks tests/stress
 
 .DEFAULT_GOAL := all
-.PHONY: all run test test-long unit unit-debug user user-long lint debug python bench bench-build bench-changed trends measured hashes stress stress-sample faults faults-sample touched sanitize mutants release-check doc test-cluster compilers clean install uninstall help format pages pictures FORCE
+.PHONY: all run test test-long unit unit-debug user user-long lint debug python bench bench-build bench-changed profile trends measured hashes stress stress-sample faults faults-sample touched sanitize mutants release-check doc test-cluster compilers clean install uninstall help format pages pictures FORCE
 
 all: $(BUILD)/rattle
 
@@ -95,6 +96,7 @@ help:
 	@echo 'make measured     what was measured of rebound and onset beside what the program computes'
 	@echo 'make hashes       hashes of what many runs write, as $(BUILD)/hashes.json, or held against those of another build (AGAINST=FILE)'
 	@echo 'make bench        speed of the program beside that of others, as tables; make bench-changed: its last'
+	@echo 'make profile      where a campaign spends its time: by phase, kind of row, procedure; needs perf of Linux'
 	@echo 'make stress       100000 random scenes: what users are reported of them, and every engine (SCENES=N)'
 	@echo 'make mutants      break lines changed since SINCE=HEAD~20 in one place at a time: does a test notice? (SAMPLE=40)'
 	@echo 'make faults       runs that meet kills, full disks, little memory, failing calls, other runs, damaged and foreign files'
@@ -262,6 +264,11 @@ bench: bench-build
 
 bench-changed: bench-build
 	$(call against_peers,work_precision_changed,--changed --finest 1e-8 --only 'heyoka 8' --only CVODE)
+
+# Where a campaign spends its time, by samples of its stacks.
+profile: $(BUILD)/kernels/built
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/profile PROFILE=1 $(BUILD)/profile/rattle
+	@$(PYTHON) tests/benchmarks/bench_phases.py $(BUILD)/profile/rattle
 
 # What the program says of the trends that test stands report: table and picture of tests/trends.
 trends: $(BUILD)/rattle $(BUILD)/kernels/built
