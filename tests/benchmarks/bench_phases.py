@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -113,6 +114,8 @@ def main() -> None:
     parser.add_argument("program")
     parser.add_argument("--count", type=int, default=5)
     options = parser.parse_args()
+    if shutil.which("perf") is None:
+        sys.exit("bench_phases.py: perf is not installed; Debian has it in linux-perf.")
     warnings.simplefilter("ignore", rattle.InputWarning)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
