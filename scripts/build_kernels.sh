@@ -36,4 +36,6 @@ for source in "$place"/_kernels-f2pywrappers*.f*; do
 done
 # shellcheck disable=SC2086
 $compiler -shared -O2 -fPIC -fopenmp -I"$modules" -J"$place" fsrc/bindings/*.f90 $wrappers \
-    "$place/_kernelsmodule.o" "$place/fortranobject.o" $objects $libraries -o "$target/_kernels$suffix"
+    "$place/_kernelsmodule.o" "$place/fortranobject.o" $objects $libraries -o "$place/_kernels$suffix"
+# Not written in place: whoever imports it meanwhile has the one before.
+mv "$place/_kernels$suffix" "$target/.kernels_new" && mv "$target/.kernels_new" "$target/_kernels$suffix"

@@ -33,8 +33,8 @@ WITHOUT_LIBRARY = (
 )
 NOT_CALIBRATED = (
     "The generic housing is none that was measured: only differences between the variants of one file mean "
-    "something. Loudness and sharpness, which depend on the level, are left out. --transfer takes a measured "
-    "one."
+    "something, and none that lies in a few orders. Loudness and sharpness, which depend on the level, are "
+    "left out. --transfer takes a measured one."
 )
 
 
@@ -80,7 +80,10 @@ def run_up(options: argparse.Namespace, function: Transfer) -> None:
         for result in sweeps.values():
             command.note_open(result)
         ways, left_out = run_up.driven_motions(sweeps)
-        found, said = run_up.heard_driven(ways, options.rate, function), driven_words([*sweeps.values()])
+        found, said = (
+            run_up.heard_driven(ways, options.rate, function),
+            driven_words([*sweeps.values()], options.rate),
+        )
     else:
         motions, left_out = run_up.solved_motions(rattle.read_campaign(options.results[0]))
         found, said = run_up.heard(motions, options.rate, function), QUASI_STEADY
@@ -102,15 +105,16 @@ def run_up(options: argparse.Namespace, function: Transfer) -> None:
     print(options.output)
 
 
-def driven_words(sweeps: Sequence[Result]) -> str:
-    """How slow the run-up of sweeps has to be: as slow as the slowest of them asks for."""
+def driven_words(sweeps: Sequence[Result], rate: float) -> str:
+    """How slow the run-up of sweeps has to be: as slow as the slowest of them asks for; whether it is."""
     from rattle.run_up import is_run_up, pace
 
     paces = [pace(result) for result in sweeps if is_run_up(result)]
     slowest = [rates.rates[rates.slowest] for rates in paces if rates.slowest is not None]
     if len(slowest) < len(sweeps):
         return f"{DRIVEN}."
-    return f"{DRIVEN}, which a run-up has at {min(slowest):.3g} 1/min/s or slower."
+    faster = f" That of {rate:g} 1/min/s is faster: it would lag behind." if rate > min(slowest) else ""
+    return f"{DRIVEN}, which a run-up has at {min(slowest):.3g} 1/min/s or slower.{faster}"
 
 
 def rows(found: list) -> list[list[str]]:

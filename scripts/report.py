@@ -25,16 +25,20 @@ def main() -> int | None:
     printed = file_in(options.pdf, (".pdf",)) if options.pdf else None
     places = [page, printed] if printed else [page]
     outputs.check(places, overwrite=options.overwrite, inputs=options.results)
+    import rattle
     from rattle.report import report  # needs the kernels, and what is missing of them has a sentence here
-    from rattle.report.limits import read_limits
+    from rattle.report.limits import check, read_limits
     from rattle.report.reference import read_reference
 
     limits = read_limits(options.limits) if options.limits else {}
+    unmatched = check(options.limits, limits, map(rattle.read, options.results)) if options.limits else []
     reference = read_reference(options.reference) if options.reference else None
     made = report(options.results, brief=options.brief, limits=limits, reference=reference)
     text = command.readable(made)
     outputs.write([(page, outputs.text_writer(text))], overwrite=options.overwrite, inputs=options.results)
     print(page)
+    if unmatched:
+        command.note(f"{options.limits} has limits of pairs that are not here: {', '.join(unmatched)}.")
     return print_page(page, printed, options) if printed else None
 
 

@@ -143,7 +143,7 @@ contains
       else if (draws_near(parting)) then
          sentence = parting_sentence(parting)//' The motion settles; raise solver.periods to see to which one.'
       else
-         sentence = parting_sentence(parting)//' That is not positive beyond its error: raise solver.periods.'
+         sentence = parting_sentence(parting)//' That is not positive beyond its error: the motion may settle later.'
       end if
    end function doubt_of_parting
 

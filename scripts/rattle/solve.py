@@ -19,6 +19,7 @@ import numpy as np
 from rattle import faults, solver_process
 from rattle.campaign_result import Campaign, read_campaign
 from rattle.faults import InputError, RunError, read_faults
+from rattle.keys import key_table
 from rattle.optional import needed
 from rattle.result import Result, read
 from rattle.summary import input_warnings, read_summary
@@ -222,7 +223,7 @@ def sweep(
     input
         A file, namelist text, or a dict of groups of keys, of several &gear as a list.
     key
-        Name of the key without its group, as 'frequency'.
+        The key, as 'load.frequency' or 'frequency'.
     first, last
         Range of the key, in its unit; or a `Range` as `first`, which has ends, count and scale.
     set
@@ -256,6 +257,8 @@ def sweep(
     21
     """
     first, last, count, spacing = _ends(first, last, count, spacing)
+    if key is not None and tuple(key.rpartition(".")[::2]) in key_table():
+        key = key.rpartition(".")[2]  # keys that a sweep takes have names of their own
     given = {"key": key, "first": first, "last": last, "count": count, "spacing": spacing, "turn": turn}
     asked = {f"sweep.{name}": value for name, value in given.items() if value is not None}
     return run(input, set={"scene.task": "sweep", **asked, **(set or {})}, **options)

@@ -65,7 +65,7 @@ def read_summary(path: str | Path) -> dict[str, Any]:
         body, mark, stored = raw.rpartition(CHECKSUM_MARK)
         if mark and stored != b"%d\n" % checksum(body):
             raise SummaryError(f"{path} is damaged: it is not what its checksum says.")
-        groups = parse(raw.decode("ascii"))
+        groups = parse(raw.decode("utf-8"))
     except OSError as fault:
         raise SummaryError(f"{path} cannot be read: {fault.strerror or fault}.") from None
     except UnicodeDecodeError:
@@ -147,6 +147,14 @@ def _flag(label: str, quantity: str, when_set: str, otherwise: str) -> Row:
     return label, lambda summary: when_set if summary[quantity] else otherwise
 
 
+def _impacts(summary: Summary) -> str:
+    """By flank, where there are two."""
+    drive, coast = (summary.get(f"impacts_per_period_{flank}") for flank in ("drive", "coast"))
+    if drive is None:
+        return ABSENT
+    return f"{drive:.3g}" if coast is None else f"{drive:.3g} drive, {coast:.3g} coast"
+
+
 def _rigid_teeth_fit(summary: Summary) -> str:
     """Of elastic teeth, which leave a gap of their own, nothing is said."""
     if "gear_position_minimum" in summary:
@@ -169,6 +177,8 @@ _ROWS: tuple[Row, ...] = (
         lambda summary: str(summary["verification"]).strip().replace("verified", "numerically verified"),
     ),
     _number("film force rms", "film_force_rms", ".4g"),
+    _number("largest load", "load_maximum", ".4g"),
+    ("impacts a period", _impacts),
     _number("motions found", "motions", "g"),
     _text("status", "status"),
     _text("film law", "law"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import math
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -235,13 +236,36 @@ def test_a_pair_without_motion_has_nothing_to_end(tmp_path: Path) -> None:
     assert len(words.cells(found.pairs[0])[0]) == 5
 
 
+def test_what_comes_back_is_said_to(pair: PairStudy) -> None:
+    """In the sentence as in the table: ended up to a value within the range, or to its end."""
+    (measure,) = (one for one in pair.measures if one.lever.key == KEYS[0])
+    now = replace(pair, measures=(measure,))
+    assert "come back" not in " ".join(words.sentences(now))
+    ends = {
+        name: replace(end, until=0.5 * (end.value + measure.lever.last)) for name, end in measure.ends.items()
+    }
+    back = words.sentences(replace(pair, measures=(replace(measure, ends=ends),)))
+    until = words.value_words(ends["impacts"].until, measure.lever.unit)
+    assert f"Beyond {until} they come back." in back
+    assert words.end_words(replace(measure, ends=ends), "impacts").endswith(f", to {until}")
+
+
+def test_impacts_without_separation_end_separation(reported: Path) -> None:
+    """A tooth that floats up on its film leaves no flank."""
+    separate = {word for word, code in VERDICTS.items() if code not in TARGETS["separation"]}
+    assert separate == {"separation", "single-sided impacts", "double-sided impacts"}
+    answer = solved(reported / "pair.nml", {"load.force_scale": 0.15})
+    summary = package.run(reported / "pair.nml", set={"load.force_scale": 0.15}).summary
+    assert (answer.verdict in TARGETS["separation"]) == (not summary["separation"])
+
+
 def test_words_of_values() -> None:
     assert [
         words.value_words(*one) for one in ((2.5e-5, "m"), (0.016, "m"), (1.7e-3, "kg m2"), (0.0, "m"))
     ] == [
         "25 um",
         "16 mm",
-        "1.7e+03 kg mm2",
+        "1700 kg mm2",
         "0 m",
     ]
     assert words.verdict_word(UNKNOWN) == "no end reached"
@@ -272,7 +296,8 @@ def test_commands_of_the_page(rattle: Path, repository: Path, tmp_path: Path) ->
     assert round(ends["oil temperature"]["impacts"].value) == 26
     order = ends["acceleration of order 2"]["double-sided impacts"]
     assert (round(order.value), round(order.until)) == (356, 262)
-    assert not any("separation" in found for found in ends.values())
+    assert [name for name, found in ends.items() if "separation" in found] == ["all that shakes"]
+    assert round(100.0 * ends["all that shakes"]["separation"].value) == 13
 
 
 @pytest.mark.parametrize(

@@ -240,10 +240,12 @@ def test_a_sweep_goes_there_and_back():
     result, _ = rattle.sweep(scene, "frequency", 500.0, 700.0, count=3, turn=False, spacing="logarithmic")
     np.testing.assert_allclose(result["frequency"], np.geomspace(500.0, 700.0, 3))
     ends = rattle.Range(500.0, 700.0, 3, scale="logarithmic")
-    again, _ = rattle.sweep(scene, "frequency", ends, turn=False)
+    again, _ = rattle.sweep(scene, "load.frequency", ends, turn=False)
     assert again.frame().equals(result.frame())
     with pytest.raises(TypeError, match="A Range has its last value"):
         rattle.sweep(scene, "frequency", ends, 700.0)
+    with pytest.raises(rattle.InputError, match=r"'shaft\.frequency' is not allowed"):
+        rattle.sweep(scene, "shaft.frequency", ends)
 
 
 def test_frames_and_datasets_hold_the_columns_with_units(file):

@@ -221,11 +221,15 @@ def test_limits_are_held_against_the_forces(run, repository, tmp_path):
     assert shown["3rd"] == shown["4th"] == "-"
     assert set(read_limits(repository / "input" / "gearbox_limits.csv")) == set(forces)
     one = page_on(results[1:2], limits={"2nd": 1.1 * forces["2nd"]})
+    ready = ("--limits", repository / "input" / "gearbox_limits.csv", "--output", tmp_path / "one.html")
+    done = call_script("report.py", results[1], *ready)
+    assert done.returncode == 0 and "pairs that are not here: 1st, 3rd, 4th." in done.stderr
     assert f"within its limit of {1.1 * forces['2nd']:.4g} N" in one
     for text, words in (
         ("gear,force\n1st,3\n", "the head has to be gear,film_force_rms"),
         ("gear,film_force_rms\n1st,loud\n", ":2: a name and a number"),
         ("gear,film_force_rms\n1st,3\n1st,-4\n", ":3: a limit is a positive number"),
+        ("gear,film_force_rms\npair,3\n", "has limits of pair; the motions are of 1st, 2nd, 3rd, 4th."),
     ):
         limits.write_text(text)
         done = call_script("report.py", *results, "--limits", limits, "--output", output, "--overwrite")

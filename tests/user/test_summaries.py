@@ -28,6 +28,9 @@ SUMMARY = {
     "verdict": "'double-sided impacts'",
     "verdict_verified": ".false.",
     "motions": "2",
+    "load_maximum": "341.27",
+    "impacts_per_period_drive": "2.0",
+    "impacts_per_period_coast": "0.5",
     "harmonic_count": "30",
     "harmonic_distortion": "0.98761",
     "irregular_fraction": "1.5e-12",
@@ -51,6 +54,8 @@ SHOWN = {
     "class": "idle",
     "verification of the class": "numerically verified",
     "motions found": "2",
+    "largest load [N]": "341.3",
+    "impacts a period": "2 drive, 0.5 coast",
     "status": "complete",
     "film law": "iso-viscous",
     "film model": "published",
@@ -122,7 +127,7 @@ def test_the_table_of_the_page_on_the_paper_is_what_the_program_finds(run, repos
     [
         ("&summaty\n/\n", "is not a summary: it has no group &summary."),
         ("no namelist at all", "is not a summary"),
-        ("&summary\n   name = '\u00fc'\n/\n", "is not a summary: it is not plain text."),
+        ("&gear ! 0.9 \u00b0\n/\n", "is not a summary: it has no group &summary."),
     ],
 )
 def test_what_is_no_summary_is_explained(tmp_path, text, words):

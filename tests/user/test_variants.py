@@ -137,7 +137,7 @@ def test_changes_are_of_the_size_and_none_where_a_unit_has_no_ratio() -> None:
     warmer = Difference("variant", "", "input", "oil.temperature_celsius", "degC", 40.0, 60.0)
     assert (warmer.change, warmer.percent, warmer.decibel) == (20.0, None, None)
     turned = Difference("variant", "", "answer", "velocity_minimum", "m/s", -1.0, 1.0)
-    assert (turned.percent, turned.decibel) == (-200.0, None)
+    assert (turned.change, turned.percent, turned.decibel) == (2.0, None, None)
 
 
 @pytest.mark.usefixtures("undrawn")

@@ -65,8 +65,10 @@ class Difference:
 
     @property
     def percent(self) -> float | None:
-        """Change in percent of the base, by size: a drop is negative; None where it has none."""
-        if self.change is None or float(self.base) == 0.0 or self.unit in WITHOUT_RATIO:
+        """Change in percent of the base, by size: a drop is negative; None without one, or of other signs."""
+        if self.change is None or self.unit in WITHOUT_RATIO:
+            return None
+        if float(self.base) == 0.0 or float(self.base) * float(self.value) < 0.0:
             return None
         return 100.0 * self.change / float(self.base)
 

@@ -95,10 +95,10 @@ class Compared:
         return np.array([np.nan if one is None else one for one in found], dtype=float)
 
     def percent(self, name: str) -> np.ndarray:
-        """Change in percent of the base, by size: a drop is negative."""
+        """Change in percent of the base, by size: a drop is negative; not a number where there is none."""
         one, other = self.values(name)
         with np.errstate(divide="ignore", invalid="ignore"):
-            return np.where(one == 0.0, np.nan, 100.0 * (other - one) / one)
+            return np.where((one == 0.0) | (one * other < 0.0), np.nan, 100.0 * (other - one) / one)
 
     def changes(self, name: str) -> Counter[tuple[str, str]]:
         """How often which word became which other."""

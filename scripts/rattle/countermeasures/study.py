@@ -19,7 +19,7 @@ from rattle.faults import InputError, InputWarning
 TARGETS = {
     "double-sided impacts": frozenset(VERDICTS.values()) - {VERDICTS["double-sided impacts"]},
     "impacts": frozenset(code for word, code in VERDICTS.items() if "impacts" not in word),
-    "separation": frozenset({VERDICTS["no separation"]}),
+    "separation": frozenset({VERDICTS["no separation"], VERDICTS["impacts without separation"]}),
 }
 # What is looked at first, to rank and to advise.
 ORDER = ("impacts", "double-sided impacts", "separation")

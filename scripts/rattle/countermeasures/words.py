@@ -21,10 +21,11 @@ def verdict_word(code: int) -> str:
 def value_words(value: float, unit: str) -> str:
     """A value as engineers read it."""
     if unit == "kg m2":
-        return f"{value * 1e6:.3g} kg mm2"
-    if unit == "m" and value != 0.0:
-        return f"{value * 1e6:.3g} um" if abs(value) < 1e-3 else f"{value * 1e3:.3g} mm"
-    return f"{value:.3g}{'' if unit in ('', '-') else f' {unit}'}"
+        value, unit = value * 1e6, "kg mm2"
+    elif unit == "m" and value != 0.0:
+        value, unit = (value * 1e6, "um") if abs(value) < 1e-3 else (value * 1e3, "mm")
+    number = f"{value:.3g}" if abs(value) < 999.5 else f"{value:.0f}"
+    return f"{number}{'' if unit in ('', '-') else f' {unit}'}"
 
 
 def change_words(lever: Lever, value: float) -> str:
@@ -43,12 +44,17 @@ def end_words(measure: Measure, name: str) -> str:
         return "not within"
     end, lever = measure.ends[name], measure.lever
     words = change_words(lever, end.value)
-    is_last = math.isclose(end.until, lever.first) or math.isclose(end.until, lever.last)
-    words += "" if is_last else f", to {value_words(end.until, lever.unit)}"
+    words += f", to {value_words(end.until, lever.unit)}" if comes_back(measure, name) else ""
     if not end.confirmed:
         words += f"; not confirmed: {verdict_word(end.answer.verdict)}"
         words += f" of {end.answer.motions} motions" if end.answer.motions > 1 else ""
     return words
+
+
+def comes_back(measure: Measure, name: str) -> bool:
+    """Whether what is ended begins again before the end of the range."""
+    until, lever = measure.ends[name].until, measure.lever
+    return not (math.isclose(until, lever.first) or math.isclose(until, lever.last))
 
 
 def cells(pair: PairStudy) -> list[list[str]]:
@@ -103,6 +109,9 @@ def sentences(pair: PairStudy) -> list[str]:
             f"at {change_words(best.lever, end.value)}: solved again, {verdict_word(end.answer.verdict)}, "
             f"{end.answer.change_db(now):+.1f} dB{rest}."
         )
+        if comes_back(best, name):
+            back = "it comes" if name == "separation" else "they come"
+            found.append(f"Beyond {value_words(end.until, best.lever.unit)} {back} back.")
     return [*found, *_best_effort(pair)]
 
 

@@ -52,6 +52,8 @@ DRAWN = ("verdict", "film_force_rms")
 SAID = ("verdict", "rattle_class", "film_force_rms", THRESHOLD, KIND)
 SEEN_WORDS = ("verdict", "rattle_class")
 MOST_ROWS = 100
+# Share of a whole count below which its error is that of adding up.
+ROUNDING = 1e-12
 ERRORS = (
     "Behind \N{PLUS-MINUS SIGN} is the error that the program states, at least half a unit of the sixth "
     "digit; whole counts that are verified have none. A difference is none where it is no "
@@ -273,7 +275,7 @@ def _meanings(entries: Iterable[Difference]) -> dict[str, page.Cell]:
 def _with_error(value: Any, error: float | None, unit: str) -> page.Cell:
     if error is None or value is None or isinstance(value, str | bool):
         return _shown(value, unit)
-    if error <= 0.0 and float(value).is_integer():
+    if float(value).is_integer() and error <= ROUNDING * abs(value):
         return _shown(value, unit)
     factor = next((factor for least, factor, _ in page.STEPS.get(unit, ()) if abs(value) >= least), 1.0)
     bound = page.value(factor * reported_error(error, float(value)), "", 2)  # in the unit of the value
@@ -291,7 +293,8 @@ def _change(entry: Difference) -> page.Cell:
     changes = [_signed(entry.percent, "%"), _signed(entry.decibel, "dB")]
     if entry.name == THRESHOLD:
         changes.insert(0, _signed(entry.change, page.UNIT_WORDS.get(entry.unit, entry.unit)))
-    return page.Cell("<br>".join(filter(None, changes)) or _signed(entry.change, entry.unit))
+    sign = "+" if entry.change > 0.0 else ""
+    return page.Cell("<br>".join(filter(None, changes)) or f"{sign}{page.value(entry.change, entry.unit, 3)}")
 
 
 def _kind(name: str) -> str:

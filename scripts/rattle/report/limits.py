@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from rattle.campaign_plan import GEAR
 from rattle.command import CommandError
+from rattle.result_file import ResultFile
 
 HEAD = ("gear", "film_force_rms")
 Limits = Mapping[str, float]
@@ -32,6 +34,20 @@ def read_limits(path: Path) -> dict[str, float]:
             raise CommandError(f"{path}:{number}: a limit is a positive number, one for each gear.")
         limits[gear] = value
     return limits
+
+
+def check(path: Path, limits: Limits, results: Iterable[ResultFile]) -> list[str]:
+    """Names in the file that no motion has. Raises CommandError where none of its limits is for one."""
+    motions = [result for result in results if result.task == "motion"]
+    gears = {str(result.input.get(GEAR, {}).get("name", "")).strip() for result in motions}
+    if not gears & {*limits}:
+        named = ", ".join(sorted(gears - {""})) or "no pair with a name (&gear name)"
+        raise CommandError(
+            f"{path} has limits of {', '.join(limits) or 'no pair'}; the motions are of {named}."
+            if motions
+            else f"{path}: limits are those of motions, and no result is one."
+        )
+    return [name for name in limits if name not in gears]
 
 
 def words(gear: str, force: float, limits: Limits) -> str:
