@@ -126,7 +126,7 @@ def test_kinds_of_change_are_curves_of_their_own(tmp_path):
         "creep to idle (1)",
         "creep to film lost (1)",
         "from lower to upper",
-        "end: the motion changes kind",
+        "end: its neighbour has no such change near",
         "not quiet here",
         "not verified (2)",
         "no change (1)",
@@ -290,7 +290,7 @@ def test_sides_of_a_level_are_named_for_what_they_are(tmp_path):
         "below 100 N to at least 100 N (1)",
         "at least 100 N to below 100 N (1)",
         "from lower to upper",
-        "end: the motion changes kind",
+        "end: its neighbour has no such change near",
         "at least 100 N here",
         "not verified (1)",
     ]
@@ -438,9 +438,51 @@ def test_the_report_tells_of_another_side_where_no_threshold_is(tmp_path):
         assert ("1 trace without a threshold has motions on another side" in words) == bool(reported)
 
 
+JUMP = "jump: too large to be sure of one curve"
+END = "end: its neighbour has no such change near"
+
+
+def shaded(axes) -> list[tuple[float, float]]:
+    """Between which values of the first key each shaded part lies."""
+    fills = [area for area in axes.collections if "Fill" in type(area).__name__ and area.get_alpha() == 0.1]
+    corners = [area.get_paths()[0].vertices[:, 0] for area in fills]
+    return sorted((float(x.min()), float(x.max())) for x in corners)
+
+
+def test_a_curve_that_is_steep_is_one_line(tmp_path):
+    """Temperatures at which impacts begin, from 700 to 2100 1/min; solved at more speeds, one curve."""
+    lower = [30.296, 33.089, 23.77, 20.252, 19.218, 18.809, 18.258, 17.325]
+    axes = figure(written_with_ends(tmp_path / "edge.rattle", [[NAN] * 4] * 8, lower)).axes[0]
+    lines = [x for x, _ in drawn.curves(axes) if x.size == 8]
+    np.testing.assert_array_equal(lines[0], np.arange(1.0, 9.0))
+    assert not {JUMP, END} & set(drawn.legend_words(axes.figure)) and shaded(axes) == [(1.0, 8.0)]
+
+
 def test_a_jump_of_a_curve_is_no_line(tmp_path):
+    """Both sides of it are marked; shade and the band in which either is possible stop there too."""
     lower = [30.0, 31.0, 32.0, 70.0, 71.0, 72.0]
-    result = written_with_ends(tmp_path / "edge.rattle", [[NAN] * 4] * 6, lower)
-    x, y = next(line for line in drawn.curves(figure(result).axes[0]) if line[0].size > 6)
+    ends = [[value + 9.0, value - 9.0, 1.0, 1.0] for value in lower]
+    result = written_with_ends(tmp_path / "edge.rattle", ends, lower)
+    axes = figure(result).axes[0]
+    x, y = next(line for line in drawn.curves(axes) if line[0].size > 6)
     np.testing.assert_array_equal(x, [1.0, 2.0, 3.0, NAN, 4.0, 5.0, 6.0])
     np.testing.assert_array_equal(y, [31.0, 32.0, 33.0, NAN, 71.0, 72.0, 73.0])
+    (marks,) = (line for line in axes.lines if line.get_marker() == "s" and line.get_markersize() == 8)
+    np.testing.assert_array_equal(marks.get_xydata(), [[3.0, 33.0], [4.0, 71.0]])
+    words = drawn.legend_words(axes.figure)
+    assert JUMP in words and END not in words
+    assert shaded(axes) == [(1.0, 3.5), (3.5, 6.0)]
+    (band,) = (area for area in axes.collections if area.get_alpha() == 0.16)
+    assert len(band.get_paths()) == 2
+    done = call_script("report.py", result.path, "--output", tmp_path / "edge.html")
+    assert done.returncode == 0, done.stderr
+    words = read_page(tmp_path / "edge.html").words
+    assert "where its neighbour has no such change near" in words
+    assert "where a jump is too large to be sure of one curve" in words and "changes kind" not in words
+
+
+def test_a_peak_of_one_point_is_two_jumps(tmp_path):
+    lower = [30.0, 31.0, 70.0, 31.0, 30.0]
+    axes = figure(written_with_ends(tmp_path / "edge.rattle", [[NAN] * 4] * 5, lower)).axes[0]
+    x = next(x for x, _ in drawn.curves(axes) if x.size > 5)
+    np.testing.assert_array_equal(x, [1.0, 2.0, NAN, 3.0, NAN, 4.0, 5.0])

@@ -398,7 +398,7 @@ def test_words_of_thresholds(tmp_path):
             "Entrainment speed [m/s]",
             "Force amplitude [N], searched from 5 to 100 N",
             "not quiet here",
-            "end: the motion changes kind",
+            "end: its neighbour has no such change near",
             *(f"{kind} ({count})" for kind, count in kinds.items()),
             "from lower to upper",
             f"not verified ({unsure})",

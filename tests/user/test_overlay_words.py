@@ -355,7 +355,7 @@ def test_words_of_thresholds_over_a_map(tmp_path):
     assert set(legend) - classes == {
         *(f"{kind} ({kinds.count(kind)})" for kind in kinds),
         "from lower to upper",
-        "end: the motion changes kind",
+        "end: its neighbour has no such change near",
         f"not verified ({unsure})",
         f"no change ({sum(row[2] == 0.0 for row in ROWS)})",
         *([f"not verified ({100.0 * doubt / rows.row_count:.1f} %)"] if doubt else []),

@@ -22,12 +22,12 @@ from rattle.campaign_section import Section, new_section, short_name, spaced_uni
 from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, style
 from rattle.figures.threshold_curves import (
-    END_WORDS,
+    RINGS,
     curves,
     draw_bars,
     draw_either,
+    draw_ends,
     either_entry,
-    line_ends,
     shade,
     shade_entry,
 )
@@ -180,10 +180,11 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
         halo = style.HALO if section else None
         colour = "black" if section else style.RUN_COLOURS[place]
         dashes = {"linewidth": 1.3, "linestyle": style.RUN_DASHES[place % len(style.RUN_DASHES)]}
-        for part in curves(found, axis, chosen) if kind else ():
+        parts = curves(found, axis, chosen) if kind else []
+        for part in parts:
             axes.plot(*part, zorder=3, color=colour, path_effects=halo, **dashes)
         draw_either(axes, found, axis, chosen, colour)
-        lines += curves(found, axis, chosen) if kind else []
+        lines += parts
         draw_bars(axes, x[chosen], found.column("lower")[chosen], found.column("upper")[chosen], colour)
         marks = {"color": colour, "marker": style.RUN_MARKS[place], "markersize": 3.0, "zorder": 4}
         sure = chosen & ~found.uncertain
@@ -198,7 +199,7 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
         words = kind or "other changes"
         handles.append(Line2D([], [], **dashes, **marks, label=f"{words} ({int(chosen.sum())})"))
     handles += width_entry(axes, found, crossed)
-    handles += draw_ends(axes, lines, axis)
+    handles += draw_ends(axes, lines, axis, RINGS)
     handles += [shade_entry(found)] if section is None else []
     if found.either.any():
         handles.append(either_entry(int(found.either.sum())))
@@ -213,16 +214,6 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
         axes.plot(x[~crossed], foot, transform=axes.get_xaxis_transform(), zorder=4, **mark)
         handles.append(Line2D([], [], **mark, label=f"{NONE} ({int((~crossed).sum())})"))
     return handles
-
-
-def draw_ends(axes: Axes, lines: list, axis: Axis) -> list[Line2D]:
-    """Rings where lines end or jump within the picture; returns their legend entry."""
-    x, y = line_ends(lines, axis)
-    if not x.size:
-        return []
-    ring = {"marker": "o", "markersize": 8, "markerfacecolor": "none", "color": "black", "linestyle": ""}
-    axes.plot(x, y, zorder=5, **ring)
-    return [Line2D([], [], **ring, label=END_WORDS)]
 
 
 def bars_show(axes: Axes, found: Thresholds, chosen: np.ndarray) -> bool:
@@ -308,7 +299,7 @@ def draw_curves(axes: Axes, found: Thresholds, along: Axis, other: Axis, crossin
         handles.append(Line2D([], [], label=label, **line, **mark))
         points = {"color": line["color"], "linestyle": "", "markerfacecolor": "white", **mark}
         axes.plot(x[unsure], values[unsure], **points)
-    handles += [*draw_ends(axes, lines, along), shade_entry(found), *width_entry(axes, found, lasting)]
+    handles += [*draw_ends(axes, lines, along, RINGS), shade_entry(found), *width_entry(axes, found, lasting)]
     if (lasting & found.either).any():
         handles.append(either_entry(int((lasting & found.either).sum())))
     if (lasting & uncertain).any():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,10 +19,19 @@ from rattle.thresholds import Thresholds, words_of_criterion
 
 SHADE = 0.1  # opacity; where several rattle it adds up
 EITHER = "either is possible"
-# What stands where a line ends within a picture.
-END = {"color": "black", "marker": "D", "markersize": 3.2, "linestyle": "", "zorder": 5}
-END_WORDS = "end: the motion changes kind"
+END_WORDS = "end: its neighbour has no such change near"
+JUMP_WORDS = "jump: too large to be sure of one curve"
+LINES_SENTENCE = (
+    "A line ends, marked round, where its neighbour has no such change near; it is broken, marked square, "
+    "where a jump is too large to be sure of one curve."
+)
+# What stands at ends and jumps within a picture: around points, and over a map, which shows no points.
+_RING = {"color": "black", "markersize": 8, "markerfacecolor": "none", "linestyle": "", "zorder": 5}
+_DOT = {"color": "black", "markersize": 3.4, "linestyle": "", "zorder": 5}
+RINGS = {END_WORDS: {"marker": "o", **_RING}, JUMP_WORDS: {"marker": "s", **_RING}}
+DOTS = {END_WORDS: {"marker": "o", **_DOT}, JUMP_WORDS: {"marker": "s", **_DOT}}
 FAR = 0.05  # of the range that was searched
+STEEPER = 5.0
 # A curve of fewer steps than these has no usual one.
 LEAST_STEPS = 4
 DASHES = ("-", (0, (4, 1.2)), (0, (1.2, 1.0)))
@@ -45,36 +54,59 @@ def draw_over_map(axes: Axes, section: Section, found: Thresholds, place: int = 
     ]
     for x, y in parts:
         axes.plot(*((x, y) if upwards else (y, x)), zorder=4, path_effects=style.HALO, **look)
-    x, y = line_ends(parts, along)
-    axes.plot(*((x, y) if upwards else (y, x)), **END)
+    ends = draw_ends(axes, parts, along, DOTS, upwards)
     draw = axes.vlines if upwards else axes.hlines
     known = crossed & np.isfinite(rows.column("lower"))
-    ends = (rows.column(name)[known] for name in ("lower", "upper"))
-    draw(rows.column(other)[known], *ends, colors="black", linewidth=2.5, alpha=0.4, zorder=4)
+    bars = (rows.column(name)[known] for name in ("lower", "upper"))
+    draw(rows.column(other)[known], *bars, colors="black", linewidth=2.5, alpha=0.4, zorder=4)
     unsure = rows.uncertain
     marks = {"color": "black", "marker": "o", "markersize": 3.0, "linestyle": "", "zorder": 5}
     places = rows.column(other)[unsure], rows.values[unsure]
     axes.plot(*(places if upwards else places[::-1]), markerfacecolor="white", **marks)
-    handles = [Line2D([], [], **look, label=f"threshold: {words_of_criterion(found)}")]
-    return handles + ([end_entry()] if x.size else [])
+    words = f"threshold: {words_of_criterion(found)}"
+    return [Line2D([], [], **look, label=words), *ends]
+
+
+def within(axes: Axes, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Which points lie between the limits of both axes."""
+    inside = np.ones(np.shape(x), dtype=bool)
+    for values, limits in ((x, axes.get_xlim()), (y, axes.get_ylim())):
+        inside &= (values >= min(limits)) & (values <= max(limits))
+    return inside
+
+
+def draw_ends(
+    axes: Axes,
+    parts: Sequence[tuple[np.ndarray, np.ndarray]],
+    along: Axis,
+    looks: Mapping[str, Mapping],
+    upwards: bool = True,
+) -> list[Line2D]:
+    """Marks where lines end, and on both sides of their jumps; returns legend entries of those seen."""
+    handles = []
+    for (words, look), points in zip(looks.items(), line_ends(parts, along), strict=True):
+        x, y = points if upwards else points[::-1]
+        inside = within(axes, x, y)
+        if inside.any():
+            axes.plot(x[inside], y[inside], **look)
+            handles.append(Line2D([], [], **look, label=words))
+    return handles
 
 
 def line_ends(parts: Sequence[tuple[np.ndarray, np.ndarray]], along: Axis) -> tuple[np.ndarray, np.ndarray]:
-    """Where lines end or jump within the axis, as the motion changes kind there."""
-    ends = []
+    """Points (x and y of each) at which lines end within the axis, and those on both sides of jumps."""
+    ends, jumps = [], []
     for x, y in parts:
-        for piece in np.split(np.arange(x.size), np.flatnonzero(np.isnan(x))):
-            kept = piece[np.isfinite(x[piece])]
-            for end in kept[[0, -1]] if kept.size else ():
-                # A line of one point, which no stroke shows, is marked wherever it stands.
-                if kept.size == 1 or along.values[0] < x[end] < along.values[-1]:
-                    ends.append((float(x[end]), float(y[end])))
-    found = np.array(list(dict.fromkeys(ends))).reshape(-1, 2)
-    return found[:, 0], found[:, 1]
-
-
-def end_entry() -> Line2D:
-    return Line2D([], [], **END, label=END_WORDS)
+        points = list(zip(x.tolist(), y.tolist(), strict=True))
+        # A line of one point, which no stroke shows, is marked wherever it stands.
+        ends += [
+            points[end]
+            for end in (0, -1)
+            if len(points) == 1 or along.values[0] < points[end][0] < along.values[-1]
+        ]
+        jumps += [points[gap + side] for gap in np.flatnonzero(np.isnan(x)) for side in (-1, 1)]
+    one_each = (np.array(list(dict.fromkeys(found))).reshape(-1, 2).T for found in (ends, jumps))
+    return tuple(one_each)
 
 
 def of_section(section: Section, found: Thresholds) -> tuple[Thresholds, str]:
@@ -105,8 +137,11 @@ def value_of(section: Section, axis: Axis) -> float | None:
 
 
 def curves(found: Thresholds, axis: Axis, chosen: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Crossings of one kind joined from trace to trace."""
-    return [unjoined(found, x, found.values[rows]) for x, rows in joined_rows(found, axis, chosen)]
+    """Crossings of one kind joined from trace to trace, with a gap at each jump."""
+    return [
+        tuple(gapped(jumps(found, axis, rows), x, found.values[rows]))
+        for x, rows in joined_rows(found, axis, chosen)
+    ]
 
 
 def joined_rows(found: Thresholds, axis: Axis, chosen: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
@@ -143,18 +178,38 @@ def joined_rows(found: Thresholds, axis: Axis, chosen: np.ndarray) -> list[tuple
     return [(axis.values[start : start + len(rows)], np.array(rows)) for start, rows in found_lines]
 
 
-def unjoined(found: Thresholds, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """A curve with a gap at each of its jumps.
+def jumps(found: Thresholds, axis: Axis, rows: np.ndarray) -> np.ndarray:
+    """Before which places of a curve a step is too large to be sure that one curve passes there.
 
-    A jump is a step of more than FAR of the range that was searched and five times the median step.
+    Such a step is more than FAR of the range that was searched, and STEEPER times as steep as the steps next
+    to it in the same direction: a curve that is steep there rises or falls before it or after it.
     """
     seen = _seen(found)
-    steps = np.abs(np.diff(seen(y)))
-    if steps.size < LEAST_STEPS or not np.isfinite(steps).any():
-        return x, y
-    far = max(FAR * float(np.ptp(seen(found.range.values))), 5.0 * float(np.nanmedian(steps)))
-    jumps = np.flatnonzero(steps > far) + 1
-    return np.insert(x, jumps, np.nan), np.insert(y, jumps, np.nan)
+    x, y = found.column(axis.key)[rows], seen(found.values[rows])
+    steps = np.diff(y)
+    if steps.size < LEAST_STEPS:
+        return np.array([], dtype=int)
+    slopes = steps / np.diff(np.log(x) if axis.scale == LOGARITHMIC else x)
+    beside = np.array([np.append(0.0, slopes[:-1]), np.append(slopes[1:], 0.0)])
+    usual = np.where(beside * slopes > 0.0, np.abs(beside), 0.0).max(axis=0)
+    far = FAR * float(np.ptp(seen(found.range.values)))
+    return np.flatnonzero((np.abs(steps) > far) & (np.abs(slopes) > STEEPER * usual)) + 1
+
+
+def gapped(places: np.ndarray, *columns: np.ndarray) -> Iterator[np.ndarray]:
+    """Columns of a curve with a gap before each of these places."""
+    return (np.insert(column, places, np.nan) for column in columns)
+
+
+def joined_pairs(found: Thresholds, axis: Axis, chosen: np.ndarray) -> set[tuple[int, int]]:
+    """Rows of neighbouring traces between which a curve of some kind is drawn."""
+    pairs = set()
+    for kind in dict.fromkeys(found.kinds[chosen]):
+        for _, rows in joined_rows(found, axis, chosen & (found.kinds == kind)):
+            broken = set(jumps(found, axis, rows).tolist())
+            places = [place for place in range(1, rows.size) if place not in broken]
+            pairs.update((int(rows[place - 1]), int(rows[place])) for place in places)
+    return pairs
 
 
 def draw_either(axes: Axes, found: Thresholds, axis: Axis, chosen: np.ndarray, colour: str) -> None:
@@ -162,9 +217,10 @@ def draw_either(axes: Axes, found: Thresholds, axis: Axis, chosen: np.ndarray, c
     if not (chosen & found.either).any():
         return
     low, high = (np.where(chosen & found.either, values, np.nan) for values in found.ends)
-    for x, rows in joined_rows(found, axis, chosen):
-        axes.fill_between(x, low[rows], high[rows], color=colour, alpha=0.16, linewidth=0.0, zorder=1.5)
-        for values in (low[rows], high[rows]):
+    for values_of_key, rows in joined_rows(found, axis, chosen):
+        x, *ends = gapped(jumps(found, axis, rows), values_of_key, low[rows], high[rows])
+        axes.fill_between(x, *ends, color=colour, alpha=0.16, linewidth=0.0, zorder=1.5)
+        for values in ends:
             axes.plot(x, values, color=colour, linewidth=0.8, linestyle=(0, (1.2, 1.0)), zorder=2)
     rows = chosen & found.either
     # A band of one trace has no width: a bar with feet stands for it.
@@ -182,24 +238,34 @@ def _seen(found: Thresholds) -> Callable:
 
 
 def shade(axes: Axes, found: Thresholds, axis: Axis, chosen: np.ndarray, colour: str) -> None:
-    """Shade where the motion rattles, trace by trace, joined as far as neighbours have as many such parts."""
-    x = found.column(axis.key)
+    """Shade where the motion rattles, trace by trace, joined where all that bounds it is.
+
+    Bounds of neighbours are joined by a curve, or near each other though other kinds of change.
+    """
+    x, seen = found.column(axis.key), _seen(found)
     below, above, crossing = found.rattles("_below"), found.rattles("_above"), found.column("crossing")
-    parts = []
+    pairs = joined_pairs(found, axis, chosen & (crossing > 0))
+    parts, bounds = [], []
     for value in axis.values:
         rows = np.flatnonzero(chosen & (x == value))
         rows = rows[np.argsort(crossing[rows])]
         first, last = found.range.values
-        places = [first, *(found.values[row] for row in rows if crossing[row] > 0), last]
-        sides = [below[rows[0]], *(above[row] for row in rows if crossing[row] > 0)] if rows.size else [False]
-        spans = zip(places, places[1:], sides, strict=False)
-        parts.append([(low, high) for low, high, rattles in spans if rattles])
-    far = FAR * float(np.ptp(found.range.values))
+        crossed = [int(row) for row in rows if crossing[row] > 0]
+        places = [first, *found.values[crossed], last]
+        sides = [below[rows[0]], *above[crossed]] if rows.size else [False]
+        spans = [place for place, rattles in enumerate(sides) if rattles]
+        parts.append([(places[span], places[span + 1]) for span in spans])
+        # Rows of the crossings; the ends of the range stand for themselves.
+        names = [-1, *crossed, -2]
+        bounds.append([name for span in spans for name in names[span : span + 2]])
+    far = FAR * float(np.ptp(seen(found.range.values)))
     start = 0
     for end in range(1, len(parts) + 1):
-        joined = end < len(parts) and len(parts[end]) == len(parts[end - 1])
-        if joined and np.abs(np.subtract(parts[end], parts[end - 1])).max(initial=0.0) <= far:
-            continue
+        if end < len(parts) and len(parts[end]) == len(parts[end - 1]):
+            near = np.abs(seen(np.ravel(parts[end])) - seen(np.ravel(parts[end - 1]))) <= far
+            pairs_here = zip(bounds[end - 1], bounds[end], strict=True)
+            if all(pair in pairs or is_near for pair, is_near in zip(pairs_here, near, strict=True)):
+                continue
         along = axis.values[start:end]
         # Half-way to the neighbours that are not joined, as cells of a map are.
         ends = [0.5 * (axis.values[max(start - 1, 0)] + along[0])]

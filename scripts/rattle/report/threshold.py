@@ -12,6 +12,7 @@ from rattle.campaign_section import short_name
 from rattle.command import CommandError
 from rattle.figures import threshold as picture
 from rattle.figures.campaign_look import capital
+from rattle.figures.threshold_curves import LINES_SENTENCE
 from rattle.report import motion, page
 from rattle.result import Result
 from rattle.rounding import stated_error
@@ -200,7 +201,7 @@ def tables(result: Result) -> list[str]:
 def figures(result: Result) -> list[str]:
     caption = (
         "Thresholds over the varied keys. Bars: lower to upper; open marks: not numerically verified. "
-        "Shaded: the side that rattles, darker where several do. A line ends where the motion changes kind."
+        f"Shaded: the side that rattles, darker where several do. {LINES_SENTENCE}"
     )
     try:
         found, held = picture.cut(thresholds(result), {}, 2)
