@@ -18,7 +18,8 @@ from result_writer import write_result
 from script_calls import call_script
 
 import rattle as package
-from rattle.figures import style, threshold
+from rattle.campaign_section import new_section
+from rattle.figures import campaign_map, style, threshold
 from rattle.thresholds import thresholds
 
 SIDES = ("verified_below", "verified_above")
@@ -486,3 +487,17 @@ def test_a_peak_of_one_point_is_two_jumps(tmp_path):
     axes = figure(written_with_ends(tmp_path / "edge.rattle", [[NAN] * 4] * 5, lower)).axes[0]
     x = next(x for x, _ in drawn.curves(axes) if x.size > 5)
     np.testing.assert_array_equal(x, [1.0, 2.0, NAN, 3.0, NAN, 4.0, 5.0])
+
+
+def test_the_legend_over_a_map_counts_what_is_drawn(tmp_path):
+    """Of five crossings two lie below the map, and one beyond its last speed."""
+    lower = [30.0, 31.0, 32.0, 33.0, 34.0]
+    result = written_with_ends(tmp_path / "edge.rattle", [[NAN] * 4] * 5, lower)
+    path = tmp_path / "map.rattle"
+    campaign_writer.grid(Key(SPEED, 1.0, 4.0, 4), Key(FORCE, 32.5, 100.0, 5)).write(path)
+    made = figure(result, section=threshold.behind(thresholds(result), path, {}))
+    assert "quiet to idle (2, 3 more outside)" in drawn.legend_words(made)
+    section = new_section(package.read_campaign(path), (SPEED, FORCE), {})
+    over = campaign_map.Options((), "auto", (thresholds(result),))
+    made = campaign_map.draw(section, "rattle_class", over)
+    assert "threshold: change of class (3 of 5 outside)" in drawn.legend_words(made)

@@ -30,6 +30,7 @@ from rattle.figures.threshold_curves import (
     either_entry,
     shade,
     shade_entry,
+    within,
 )
 from rattle.rounding import stated_error
 from rattle.thresholds import Thresholds, thresholds, words_of_criterion
@@ -170,6 +171,7 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
     else:
         handles, _ = campaign_map.draw_cells(axes, section, map_column(section, found))
     x, y, crossed = found.column(axis.key), found.values, found.column("crossing") > 0
+    inside = within(axes, x, y)
     common = [kind for kind, _ in Counter(found.kinds[crossed]).most_common()]
     lines: list = []
     if section is None:
@@ -196,8 +198,8 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
             markerfacecolor="white",
             **marks,
         )
-        words = kind or "other changes"
-        handles.append(Line2D([], [], **dashes, **marks, label=f"{words} ({int(chosen.sum())})"))
+        words = f"{kind or 'other changes'} ({drawn_of(chosen, inside)})"
+        handles.append(Line2D([], [], **dashes, **marks, label=words))
     handles += width_entry(axes, found, crossed)
     handles += draw_ends(axes, lines, axis, RINGS)
     handles += [shade_entry(found)] if section is None else []
@@ -206,14 +208,21 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
     if found.uncertain.any():
         mark = {"marker": "o", "markersize": 4, "markerfacecolor": "white", "color": style.FORCE_COLOUR}
         handles.append(
-            Line2D([], [], linestyle="", **mark, label=f"{UNCERTAIN} ({int(found.uncertain.sum())})")
+            Line2D([], [], linestyle="", **mark, label=f"{UNCERTAIN} ({drawn_of(found.uncertain, inside)})")
         )
     if not crossed.all():
         mark = {"marker": "|", "linestyle": "", "color": style.FORCE_COLOUR, "markersize": 7}
         foot = np.full(int((~crossed).sum()), 0.02)
         axes.plot(x[~crossed], foot, transform=axes.get_xaxis_transform(), zorder=4, **mark)
-        handles.append(Line2D([], [], **mark, label=f"{NONE} ({int((~crossed).sum())})"))
+        beside = within(axes, x, np.full(x.size, axes.get_ylim()[0]))
+        handles.append(Line2D([], [], **mark, label=f"{NONE} ({drawn_of(~crossed, beside)})"))
     return handles
+
+
+def drawn_of(chosen: np.ndarray, inside: np.ndarray) -> str:
+    """How many of some rows the picture shows, and how many lie outside its axes."""
+    outside = int((chosen & ~inside).sum())
+    return f"{int((chosen & inside).sum())}" + (f", {outside} more outside" if outside else "")
 
 
 def bars_show(axes: Axes, found: Thresholds, chosen: np.ndarray) -> bool:

@@ -63,7 +63,10 @@ def draw_over_map(axes: Axes, section: Section, found: Thresholds, place: int = 
     marks = {"color": "black", "marker": "o", "markersize": 3.0, "linestyle": "", "zorder": 5}
     places = rows.column(other)[unsure], rows.values[unsure]
     axes.plot(*(places if upwards else places[::-1]), markerfacecolor="white", **marks)
+    x, y = rows.column(other)[crossed], rows.values[crossed]
+    outside = int((~within(axes, *((x, y) if upwards else (y, x)))).sum())
     words = f"threshold: {words_of_criterion(found)}"
+    words += f" ({outside} of {x.size} outside)" if outside else ""
     return [Line2D([], [], **look, label=words), *ends]
 
 
