@@ -54,7 +54,13 @@ ALWAYS = {"export", "export as NetCDF", "report"}
 COMPARED = {"compare", "compare in Markdown"}
 SERIES = ALWAYS | {"export a column"}
 MOTION = SERIES | COMPARED | {"plot regime-map", "plot motion", "plot a motion over others", "listen"}
-CAMPAIGN = ALWAYS | {"plot campaign", "plot a summary", "campaign status", "campaign export"}
+CAMPAIGN = ALWAYS | {
+    "plot campaign",
+    "plot all pairs",
+    "plot a summary",
+    "campaign status",
+    "campaign export",
+}
 CAMPAIGN |= {"campaign as Parquet", "campaign rerun"}
 WORKING = {
     "motion": MOTION | {"classify"},

@@ -8,6 +8,7 @@ import signal
 import subprocess
 from pathlib import Path
 
+import campaign_writer
 import numpy as np
 import pytest
 from outcomes import assert_faults, summary_of
@@ -415,7 +416,20 @@ def test_all_pairs_stand_together_in_one_figure(solve, tmp_path: Path) -> None:
     drawn = call_script("plot.py", "campaign", path, "--together", "--output", tmp_path, "--format", "png")
     assert drawn.returncode == 0 and (tmp_path / "box_pairs.png").exists(), drawn.stderr
     refused = call_script("plot.py", "campaign", path, "--together", "--summary")
-    assert refused.returncode == 2 and "--together draws the maps of a grid campaign" in refused.stderr
+    assert refused.returncode == 2 and "--together draws maps of all gear pairs" in refused.stderr
+
+
+def test_the_only_pair_together_is_its_map(tmp_path: Path) -> None:
+    """Whoever has one pair types the command for a gearbox, too."""
+    path = campaign_writer.grid(campaign_writer.FORCES, campaign_writer.SPEEDS, name="one").write(
+        tmp_path / "one.rattle"
+    )
+    for folder, options in (("alone", ()), ("together", ("--together",))):
+        done = call_script("plot.py", "campaign", path, *options, "--output", tmp_path / folder)
+        assert done.returncode == 0, done.stderr
+    name = "one_map_rattle_class.png"
+    assert [file.name for file in (tmp_path / "together").iterdir()] == [name]
+    assert (tmp_path / "together" / name).read_bytes() == (tmp_path / "alone" / name).read_bytes()
 
 
 @pytest.mark.long

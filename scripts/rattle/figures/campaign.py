@@ -49,7 +49,9 @@ def add_options(parser: ArgumentParser) -> None:
         help="draw this gear pair of several; by default each in a figure of its own",
     )
     parser.add_argument(
-        "--together", action="store_true", help="all gear pairs in one figure, a row of maps for each column"
+        "--together",
+        action="store_true",
+        help="all gear pairs in one figure, a row of maps for each column; of a single pair its maps",
     )
     parser.add_argument("--x", metavar="KEY", help="varied key on the x axis, by default the first")
     parser.add_argument("--y", metavar="KEY", help="varied key on the y axis, by default the next")
@@ -96,6 +98,10 @@ def run(options: Namespace) -> None:
         raise command.CommandError("--worst, --by and --smallest belong to --summary.")
     if options.summary and options.width and 25.4 * options.width < PAGE_WIDTH - 0.1:
         raise command.CommandError(f"--summary is a page; it takes a --width of {PAGE_WIDTH:g} mm or more.")
+    if options.together and (options.summary or options.along or options.gear):
+        raise command.CommandError(
+            "--together draws maps of all gear pairs: not --summary, --along or --gear."
+        )
     options.worst = options.worst or 10
     options.by = options.by or "acceleration_maximum"
     campaign = rattle.read_campaign(options.campaign)
@@ -108,7 +114,7 @@ def run(options: Namespace) -> None:
     slices = command.one_each(options.slice)
     inputs: list[tuple[Path, Writer]] = []
     with style.house_style():
-        if options.together:
+        if options.together and len(campaign.pairs) > 1:
             drawn = [draw_together(campaign, options, slices)]
         else:
             drawn = []
@@ -175,8 +181,10 @@ def overlay_of(options: Namespace) -> campaign_map.Options:
 
 def draw_together(campaign: Campaign, options: Namespace, slices: dict[str, float]) -> tuple[str, Figure]:
     """Maps of all gear pairs in one figure."""
-    if not campaign.gears or campaign.kind != GRID or options.summary or options.along or options.gear:
-        raise command.CommandError("--together draws the maps of a grid campaign of several gear pairs.")
+    if campaign.kind != GRID:
+        raise command.CommandError(
+            f"{campaign.path} is not a grid but a {campaign.kind} campaign: draw it without --together."
+        )
     columns = options.columns or usual_columns(campaign)
     check_columns(campaign, columns)
     sections = {}
