@@ -84,7 +84,7 @@ contains
          scan%layout%names = [scan%layout%names, scan%layout%names(1)]
          words = '! traces              '//integer_text(trace_count)//new_line('a')// &
                  '! scenes of the scan  '//integer_text(scan%layout%scene_count)//new_line('a')// &
-                 '! a grid as fine has  '//integer_text(nint(grid_scenes(self%scene, threshold), int64))//' scenes'// &
+                 '! a grid as fine has  '//integer_text(nint(grid_scenes(threshold), int64))//' scenes'// &
                  new_line('a')//'! core time of the scan, '//core_time_sentence(self%scene, scan)
       end associate
    end function check_lines
@@ -155,14 +155,11 @@ contains
       end associate
    end subroutine solve
 
-   !> Scenes of a grid that finds brackets as narrow.
-   pure real(dp) function grid_scenes(scene, threshold)
-      type(scene_t), intent(in) :: scene
+   !> Scenes of a grid that finds brackets as narrow: every place that halving may reach, on each trace.
+   pure real(dp) function grid_scenes(threshold)
       type(prepared_threshold_t), intent(in) :: threshold
 
-      grid_scenes = real(threshold%axis%count, dp)
-      if (.not. threshold%axis%whole) grid_scenes = max(real(scene%threshold%count, dp), 1.0_dp/scene%threshold%tolerance + 1.0_dp)
-      grid_scenes = grid_scenes*real(threshold%traces%layout%scene_count, dp)
+      grid_scenes = real(threshold%axis%count, dp)*real(threshold%traces%layout%scene_count, dp)
    end function grid_scenes
 
    !> Write the files and say what became of the thresholds. What was cut short leaves no result.
@@ -231,7 +228,7 @@ contains
          end if
          call summary%add('scenes', solved_scenes(outcome))
          call summary%add('scenes_failed', failed_scenes(outcome))
-         call summary%add('scenes_of_a_grid', grid_scenes(scene, task%threshold))
+         call summary%add('scenes_of_a_grid', grid_scenes(task%threshold))
       end associate
       call summary%add('wall_seconds', wall_seconds() - task%started)
    end subroutine add_counts
@@ -284,8 +281,8 @@ contains
       ! Where there are more parts than traces, some have none.
       if (outcome%solved > 0_int64) &
          call log%detail('  '//integer_text(outcome%solved)//' scenes; a grid as fine has '// &
-                       integer_text(nint(grid_scenes(scene, threshold), int64))//', '// &
-                       short_text(grid_scenes(scene, threshold)/real(outcome%solved, dp), 3)//' times as many')
+                       integer_text(nint(grid_scenes(threshold), int64))//', '// &
+                       short_text(grid_scenes(threshold)/real(outcome%solved, dp), 3)//' times as many')
       call log%item('files', summary_path(scene)//', .rattle, .log')
    end subroutine report_ending
 

@@ -34,19 +34,16 @@ contains
       call test_reported(checks)
    end subroutine run_run_threshold_tests
 
-   !> A grid as fine has the values of the tolerance, the scan if that is finer, or all whole numbers.
+   !> A grid as fine has every place that halving may reach.
    subroutine test_grid(checks)
       class(check_list_t), intent(inout) :: checks
       type(scene_t) :: scene
       type(prepared_threshold_t) :: threshold
 
       call prepare(checks, scene, threshold, ' /')
-      call checks%check_close(grid_scenes(scene, threshold), grid, 1.0e-12_dp, 'a grid of the tolerance')
-      scene%threshold%count = 65
-      call checks%check_close(grid_scenes(scene, threshold), 65.0_dp*real(traces, dp), 1.0e-12_dp, 'a grid of the scan')
-      threshold%axis%whole = .true.
+      call checks%check_close(grid_scenes(threshold), grid, 1.0e-12_dp, 'a grid of the finest steps')
       threshold%axis%count = 11
-      call checks%check_close(grid_scenes(scene, threshold), 11.0_dp*real(traces, dp), 1.0e-12_dp, 'a grid of whole numbers')
+      call checks%check_close(grid_scenes(threshold), 11.0_dp*real(traces, dp), 1.0e-12_dp, 'a grid of eleven places')
    end subroutine test_grid
 
    !> Log, summary and result of a run that is carried on where all traces are done but the last.
@@ -94,7 +91,7 @@ contains
       call expect(counted(wide, 'crossing')//' have ends that are verified only farther apart than requested')
       call expect('failed           a side of its own')
       call expect('  '//integer_text(solved)//' scenes; a grid as fine has '//integer_text(nint(grid, int64))// &
-                  ', 3.00 times as many'//line_feed)
+                  ', 4.71 times as many'//line_feed)
       call hold('traces', integer_text(traces))
       call hold('crossings', integer_text(crossings))
       call hold('traces_without_crossing', integer_text(uncrossed))
@@ -102,7 +99,7 @@ contains
       call hold('crossings_wide', integer_text(wide))
       call hold('scenes', integer_text(solved))
       call hold('scenes_failed', integer_text(failed))
-      call hold('scenes_of_a_grid', '126.0')
+      call hold('scenes_of_a_grid', '198.0')
       call hold('status', "'complete'")
       call reader%open(result_path(scene), error)
       call checks%check(.not. allocated(error), 'a result')

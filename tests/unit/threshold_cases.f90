@@ -23,8 +23,8 @@ module threshold_cases
    !> What is found: each count is another number
    integer(int64), parameter, public :: traces = 6_int64, crossings = 3_int64, uncrossed = 4_int64, uncertain = 2_int64, &
                                         wide = 1_int64, failed = 7_int64, solved = 42_int64
-   !> Scenes of a grid as fine: 1/tolerance + 1 values a trace
-   real(dp), parameter, public :: grid = 126.0_dp
+   !> Scenes of a grid as fine: 33 values a trace, as four steps halved down to 1/32 of the range
+   real(dp), parameter, public :: grid = 198.0_dp
 
    public :: prepare, case_points, new_outcome
 

@@ -416,7 +416,7 @@ def test_check_tells_lines_and_cost(run, scene_text, tmp_path: Path) -> None:
     for words in (
         "! traces              3\n",
         "! scenes of the scan  51\n",
-        "! a grid as fine has  30003 scenes\n",
+        "! a grid as fine has  49155 scenes\n",
     ):
         assert words in ended.stdout
     assert "core time of the scan" in ended.stdout and "   criterion = 'class'\n" in ended.stdout
