@@ -217,7 +217,8 @@ def opened(path: Path) -> Campaign:
     command.note_summary(campaign)
     if not campaign.closed:
         done = int(campaign.done.sum())
-        command.note(f"{path} is not finished; {done} of {campaign.row_count} scenes are done and used.")
+        are = "is" if done == 1 else "are"
+        command.note(f"{path} is not finished; {done} of {campaign.row_count} scenes {are} done and used.")
     return campaign
 
 

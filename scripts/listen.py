@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from rattle import command, outputs, table
 from rattle.campaign_plan import GEAR
 from rattle.comparison.variant import grouped
+from rattle.counts import counted
 
 if TYPE_CHECKING:
     from rattle.result import Result
@@ -150,7 +151,7 @@ def remarks(found: Sequence[Heard], function: Transfer, scale: float) -> list[st
         for gear, force in one.forces.items():
             pair = f"{one.name}: {gear or 'the pair'}"
             if not force.repeats:
-                last = f"its last {force.periods} periods are heard again and again"
+                last = f"its last {counted(force.periods, 'period is', 'periods are')} heard again and again"
                 words.append(f"{pair} has a motion that does not repeat; {last}.")
             if force.motions > 1:
                 words.append(f"{pair} has {force.motions} motions; heard is the one from rest.")

@@ -19,6 +19,7 @@ from scipy import optimize, stats
 from rattle.campaign_result import Campaign
 from rattle.codes import CODES, QUANTITIES
 from rattle.command import CommandError
+from rattle.counts import counted
 from rattle.solve import campaign
 
 SPEED, TEMPERATURE = "speed_rpm", "temperature_celsius"
@@ -89,7 +90,9 @@ def read_measurements(path: Path) -> Measurements:
     columns: dict[str, list[float]] = {column: [] for column in head}
     for number, row in lines[1:]:
         if len(row) != len(head):
-            raise CommandError(f"{path}, line {number}: {len(row)} values for {len(head)} columns.")
+            raise CommandError(
+                f"{path}, line {number}: {counted(len(row), 'value')} for {counted(len(head), 'column')}."
+            )
         for column, text in zip(head, row, strict=True):
             columns[column].append(_value(text.strip(), column, f"{path}, line {number}"))
     if not columns[name]:

@@ -20,6 +20,7 @@ from rattle.campaign_plan import Plan, read_plan
 from rattle.campaign_result import SCENE, Campaign, read_campaign
 from rattle.checksums import checksum
 from rattle.command import CommandError
+from rattle.counts import counted
 from rattle.result import Result, read
 from rattle.result_header import (
     CAMPAIGN,
@@ -88,7 +89,7 @@ def _unfinished(parts: Sequence[Part]) -> list[str]:
         if not part.closed:
             done, count = int(part.header.chunks.done.sum()), part.header.chunks.checksums.size
             faults.append(
-                f"{part.path} is not finished: {done} of its {count} chunks are done; "
+                f"{part.path} is not finished: {done} of its {counted(count, 'chunk')} are done; "
                 "rattle --resume goes on."
             )
     if not faults and not any(part.row_count for part in parts):

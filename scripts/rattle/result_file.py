@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 
 from rattle.checksums import LANES, checksum, checksums
+from rattle.counts import counted
 from rattle.namelist import NamelistError, parse
 from rattle.result_header import SERIES, ColumnError, ResultError, ResultHeader
 
@@ -290,9 +291,12 @@ def check_length(path: Path, header: ResultHeader, data_bytes: int) -> None:
         return
     expected = (header.row_count + header.seal.extremes) * header.row_bytes
     if data_bytes < expected:
-        raise ResultError(f"{path} is cut short: it holds {held} of its {header.row_count} rows.")
+        raise ResultError(f"{path} is cut short: it holds {held} of its {counted(header.row_count, 'row')}.")
     if data_bytes > expected:
-        raise ResultError(f"{path} is {data_bytes - expected} bytes longer than its {header.row_count} rows.")
+        raise ResultError(
+            f"{path} is {counted(data_bytes - expected, 'byte')} longer than its "
+            f"{counted(header.row_count, 'row')}."
+        )
 
 
 def map_rows(path: Path, header: ResultHeader, row_count: int) -> np.ndarray:

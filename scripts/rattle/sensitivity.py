@@ -14,6 +14,7 @@ from rattle.campaign_plan import LOGARITHMIC, SAMPLE, TABLE
 from rattle.campaign_result import Campaign
 from rattle.codes import QUANTITIES
 from rattle.command import CommandError
+from rattle.counts import counted
 from rattle.namelist import NamelistError, parse_groups
 from rattle.outputs import Writer, text_writer
 from rattle.thresholds import WITH_IMPACTS
@@ -120,7 +121,9 @@ def new_design(path: Path, blocks: int | None, seed: int | None, folder: Path) -
     scene = groups.setdefault("scene", f90nml.Namelist())
     scene["name"], scene["task"] = f"{stem}_design", "campaign"
     groups.end_comma = False
-    head = f"! Saltelli's design of {count} blocks, seed {seed}, over the ranges of {path.name}.\n\n"
+    head = (
+        f"! Saltelli's design of {counted(count, 'block')}, seed {seed}, over the ranges of {path.name}.\n\n"
+    )
     files = [
         (folder / f"{stem}.design.csv", text_writer("\n".join(lines))),
         (folder / f"{stem}_design.nml", text_writer(head + str(groups) + "\n")),

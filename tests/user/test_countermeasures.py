@@ -307,7 +307,7 @@ def test_commands_of_the_page(rattle: Path, repository: Path, tmp_path: Path) ->
         ("variant,cost\na,1\n", "needs variant and keys"),
         ("name,gear.backlash\na,1e-5\n", "needs variant and keys"),
         ("variant,gear.backlash\na,thick\n", "line 2: gear.backlash: 'thick' is not a number"),
-        ("variant,gear.backlash\na\n", "line 2: 1 values for 2 columns"),
+        ("variant,gear.backlash\na\n", "line 2: 1 value for 2 columns"),
         ("variant,gear.backlash\na,\n", "changes something"),
         ("variant,gear.backlash\na,1e-5\na,2e-5\n", "a name of its own"),
         ("variant,gear.drag_torque\na,*0.5\n", "no value in pair"),

@@ -16,6 +16,7 @@ from test_report import CALM, report, with_summary
 import rattle
 from rattle import rerun
 from rattle.report import campaign as campaign_report
+from rattle.report import motion as motion_report
 from rattle.report import threshold as threshold_report
 
 NAN = np.nan
@@ -94,6 +95,35 @@ def test_a_map_says_where_impacts_begin_and_where_they_are_worst(tmp_path: Path)
         assert box[1] == "All 16 scenes are solved. 1 of 16 verdicts are not numerically verified."
 
 
+def test_a_count_of_one_stands_before_no_plural(tmp_path: Path) -> None:
+    """Five scenes, of which each sentence counts one."""
+    made = campaign_writer.grid(Key(FORCES.key, 100.0, 500.0, 5), Key(SPEEDS.key, 1.0, 1.0, 1), name="one")
+    one = np.array([1.0, 0.0, 0.0, 0.0, 0.0])
+    columns = {"status": np.ones(5), "rattle_class": np.ones(5), "motions": 1.0 + one, "verified": one}
+    columns |= dict.fromkeys(("law_contradicted", "model_limit", "double_sided"), one)
+    columns["verdict_verified"] = 1.0 - one
+    known = [name for name, _ in made.columns]
+    fresh = [name for name in columns if name not in known]
+    made.rows = np.column_stack([made.rows, *(np.zeros(5) for _ in fresh)])
+    made.columns += [(name, "-") for name in fresh]
+    for name, values in columns.items():
+        made.column(name)[:] = values
+    reported = " ".join(
+        campaign_report.sentences_on(rattle.read_campaign(made.write(tmp_path / "one.rattle")))
+    )
+    for sentence in (
+        "1 scene has several motions: ",
+        "1 of 5 verdicts is another.",
+        "The class is verified in 1 scene: ",
+        "In 1 scene the film law ",
+        "In 1 scene the film leaves ",
+        "In 1 scene the tooth hits ",
+    ):
+        assert sentence in reported, sentence
+    window = motion_report.key_figures({"window_periods": 1})
+    assert "The window is the last period of the force." in window
+
+
 def test_scenes_that_failed_or_are_not_done_are_in_no_range_and_no_worst(counted) -> None:
     (shown,) = [table for table in read_page(report(counted.path)).tables if table[0][1] == "Smallest"]
     ranges = {row[0]: [number(cell) for cell in row[1:]] for row in shown[1:]}
@@ -168,7 +198,7 @@ def test_every_sentence_on_thresholds_is_that_of_the_rows(tmp_path: Path) -> Non
     assert reported[1:4] == [
         "From quiet to creep: 3 times, between 21.5 N and 41 N.",
         "From creep to idle: at 71 N.",
-        "1 of 4 traces have no threshold in this range.",
+        "1 of 4 traces has no threshold in this range.",
     ]
     assert reported[4].startswith("At 3 of 4 thresholds both ends are numerically verified: ")
     assert "solved in 33 places" in reported[5] and "the widest that is left is 8 N." in reported[5]

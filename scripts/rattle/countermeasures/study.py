@@ -13,6 +13,7 @@ from rattle.countermeasures.levers import Lever, levers
 from rattle.countermeasures.scenes import VERDICTS, Answer, Scene, Scenes, Together
 from rattle.countermeasures.trace import Trace, trace
 from rattle.countermeasures.variants import Variant
+from rattle.counts import counted
 from rattle.faults import InputError, InputWarning
 
 # What is to end, and the verdicts that are left then.
@@ -132,7 +133,7 @@ def study(
         warnings.simplefilter("ignore", InputWarning)
         for scene in scenes.pairs:
             chosen = [lever for lever in found[scene.name] if not keys or lever.key in keys]
-            report(f"{scene.name}: {len(chosen)} things to change")
+            report(f"{scene.name}: {counted(len(chosen), 'thing')} to change")
             measures = sorted((_measure(scene, lever) for lever in chosen), key=lambda measure: measure.rank)
             pairs.append(PairStudy(scene.name, scene.now, tuple(measures)))
         together = _together(scenes, pairs) if len(pairs) > 1 else []

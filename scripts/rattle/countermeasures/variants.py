@@ -13,6 +13,7 @@ from typing import Any
 from rattle.command import CommandError
 from rattle.countermeasures.levers import value_of
 from rattle.countermeasures.scenes import Scenes
+from rattle.counts import counted
 
 NAME, COST = "variant", "cost"
 
@@ -50,7 +51,9 @@ def read(path: Path, scenes: Scenes) -> list[Variant]:
     found: list[Variant] = []
     for number, row in lines[1:]:
         if len(row) != len(head):
-            raise CommandError(f"{path}, line {number}: {len(row)} values for {len(head)} columns.")
+            raise CommandError(
+                f"{path}, line {number}: {counted(len(row), 'value')} for {counted(len(head), 'column')}."
+            )
         cells = dict(zip(head, map(str.strip, row), strict=True))
         place = f"{path}, line {number}"
         settings: dict[str, Any] = {}

@@ -172,6 +172,7 @@ def page(scenes: Scenes, pairs: Sequence[PairStudy], together: Sequence[BoxMeasu
     if together:
         parts += ["## All pairs, changed at once and solved again" if len(pairs) > 1 else "## Variants"]
         if len(pairs) > 1:
-            parts.append(f"Now {rattling(scenes.together)} of {len(pairs)} pairs have impacts.")
+            rattles = rattling(scenes.together)
+            parts.append(f"Now {rattles} of {len(pairs)} pairs {'has' if rattles == 1 else 'have'} impacts.")
         parts.append(markdown(together_cells(scenes, together)))
     return "\n\n".join(parts) + "\n"

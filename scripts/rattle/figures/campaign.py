@@ -108,7 +108,8 @@ def run(options: Namespace) -> None:
     command.note_summary(campaign)
     if not campaign.closed:
         done = int(campaign.done.sum())
-        command.note(f"{campaign.path} is not finished; {done} of {campaign.row_count} scenes are done.")
+        are = "is" if done == 1 else "are"
+        command.note(f"{campaign.path} is not finished; {done} of {campaign.row_count} scenes {are} done.")
     if not campaign.done.any():
         raise command.CommandError(f"{campaign.path} holds no scene that is done; there is nothing to draw.")
     slices = command.one_each(options.slice)

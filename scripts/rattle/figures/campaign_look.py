@@ -335,7 +335,8 @@ def headline(campaign: Campaign) -> str:
     count = f"{done:,}" if done == campaign.row_count else f"{done:,} of {campaign.row_count:,}"
     part = f", part {campaign.part} of {campaign.parts}" if campaign.parts > 1 else ""
     kind = {GRID: "", SAMPLE: ", sampled", TABLE: ", from a table"}[campaign.kind]
-    return f"campaign {campaign.name}{part}, {count} scenes{kind}"
+    scenes = "scene" if campaign.row_count == 1 else "scenes"
+    return f"campaign {campaign.name}{part}, {count} {scenes}{kind}"
 
 
 def frequency_ratio(campaign: Campaign) -> np.ndarray | None:

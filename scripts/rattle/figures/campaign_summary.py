@@ -16,6 +16,7 @@ from rattle.campaign_plan import GRID
 from rattle.campaign_result import Campaign
 from rattle.campaign_section import new_section, spaced_unit
 from rattle.codes import CLASSES, SUCCESSES, spoken, word
+from rattle.counts import counted
 from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, style
 from rattle.rerun import scene_label
@@ -60,7 +61,7 @@ def _draw_head(axes: Axes, campaign: Campaign) -> None:
     keys = []
     for axis in campaign.axes:
         if axis.values.size:
-            count = f", {axis.values.size} values" if campaign.kind == GRID else ""
+            count = f", {counted(axis.values.size, 'value')}" if campaign.kind == GRID else ""
             span = f"{axis.values[0]:.4g} to {axis.values[-1]:.4g}{spaced_unit(look.drawn_unit(axis.unit))}"
             keys.append(f"{look.short_name(axis.key)}: {span} ({axis.scale}{count})")
     keys.append(f"{look.capital(style.film_words(campaign))};  rattle {campaign.program_version}")

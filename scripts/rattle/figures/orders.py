@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 import rattle
 from rattle import command
 from rattle.campaign_result import Campaign
+from rattle.counts import counted
 from rattle.csv_table import read_csv_table
 from rattle.figures import style
 from rattle.figures.campaign_look import cell_edges
@@ -146,7 +147,7 @@ def comparison(name: str, cuts: Cuts, measured: Cuts) -> list[str]:
             continue
         lines.append(
             f"{name}, order {order:g}: computed less measured {np.mean(differences):+.1f} dB in the mean, "
-            f"{differences.min():+.1f} to {differences.max():+.1f} dB at {differences.size} speeds"
+            f"{differences.min():+.1f} to {differences.max():+.1f} dB at {counted(differences.size, 'speed')}"
         )
     return lines
 

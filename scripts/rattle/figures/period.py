@@ -58,7 +58,12 @@ def words_of(result: Result) -> str:
     periods = periods_of(result)
     if periods == result.orbit_period:
         return "one period" if periods == 1 else f"{periods} periods, after which it repeats"
-    return "the last period" if periods == 1 else f"the last {periods} periods of the force"
+    return words_of_last(periods)
+
+
+def words_of_last(periods: int) -> str:
+    """Periods at the end, in words."""
+    return "the last period of the force" if periods == 1 else f"the last {periods} periods of the force"
 
 
 def _mark_impacts(axes: Axes, result: Result, summary: Summary, periods: int) -> None:

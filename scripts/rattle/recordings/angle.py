@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy import interpolate
 
+from rattle.counts import counted
 from rattle.recordings import mending, units
 from rattle.recordings.channels import Channel
 from rattle.recordings.faults import RecordingError
@@ -159,8 +160,8 @@ def angles_of(channel: Channel, shaft: ShaftAngle) -> tuple[np.ndarray, np.ndarr
     known = np.isfinite(angle) & np.isfinite(channel.values)
     if np.sum(known) < 4:
         raise RecordingError(
-            f"'{channel.name}' and the angle of the shaft have {np.sum(known)} samples of the same time; "
-            "they are of different recordings, or of different clocks."
+            f"'{channel.name}' and the angle of the shaft have {counted(np.sum(known), 'sample')} of the "
+            "same time; they are of different recordings, or of different clocks."
         )
     angle, values = angle[known], channel.values[known]
     if not np.all(np.diff(angle) > 0.0):
@@ -248,8 +249,8 @@ def _from_angle(channel: Channel, bridge: float, mend: bool, notes: list[str]) -
     time, angle = channel.time[finite], channel.within("rad")[finite]
     if len(angle) < 4 or np.ptp(angle) == 0.0:
         raise RecordingError(
-            f"{channel.source}: '{channel.name}' has {len(angle)} samples, all at {angle[:1]} rad; a "
-            "shaft that turns has an angle that changes."
+            f"{channel.source}: '{channel.name}' has {counted(len(angle), 'sample')}, all at {angle[:1]} "
+            "rad; a shaft that turns has an angle that changes."
         )
     if np.median(np.sign(np.diff(angle))) < 0.0:
         notes.append(f"'{channel.name}' falls: the shaft is taken to turn the other way.")
@@ -346,8 +347,8 @@ def _from_pulses(channel: Channel, teeth: int, missing: int, bridge: float) -> S
     edges = rising_edges(channel)
     if len(edges) < max(4, teeth - missing):
         raise RecordingError(
-            f"{channel.source}: '{channel.name}' has {len(edges)} pulses, fewer than a revolution of {teeth}"
-            f"{f'-{missing}' if missing else ''}; is it the tacho?"
+            f"{channel.source}: '{channel.name}' has {counted(len(edges), 'pulse')}, fewer than a "
+            f"revolution of {teeth}{f'-{missing}' if missing else ''}; is it the tacho?"
         )
     edges = _without_extra(edges, channel, notes)
     counts = _teeth_passed(edges, teeth - missing)
@@ -359,8 +360,8 @@ def _from_pulses(channel: Channel, teeth: int, missing: int, bridge: float) -> S
         behind = place[1:][counts == gap] % teeth
         if not behind.size:
             raise RecordingError(
-                f"{channel.source}: '{channel.name}' shows no gap of {missing} teeth in {len(edges)} pulses; "
-                "check --pulses and --missing."
+                f"{channel.source}: '{channel.name}' shows no gap of {counted(missing, 'tooth', 'teeth')} in "
+                f"{len(edges)} pulses; check --pulses and --missing."
             )
         mark = int(np.bincount(behind, minlength=teeth).argmax())
         share = np.sum(behind == mark) / max(1.0, place[-1] / teeth)
@@ -498,8 +499,8 @@ def _tell_dropped(
             "each other evenly; check --pulses and --missing."
         )
     notes.append(
-        f"'{channel.name}' lacks {int(np.sum(counts[dropped] - 1))} pulses in {dropped.size} "
-        f"drop-out{'s' if dropped.size > 1 else ''}, the longest {where}; bridged."
+        f"'{channel.name}' lacks {counted(np.sum(counts[dropped] - 1), 'pulse')} in "
+        f"{counted(dropped.size, 'drop-out')}, the longest {where}; bridged."
     )
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import interpolate
 
+from rattle.counts import counted
 from rattle.recordings import mending, units
 from rattle.recordings.angle import BRIDGE, DEGREE, TURN, ShaftAngle, angles_of, interpolation_error
 from rattle.recordings.channels import Channel
@@ -184,7 +185,7 @@ def _samples_of_channel(
     if per_cycle < LEAST_SAMPLES:
         raise RecordingError(
             f"{channel.source}: '{channel.name}' has {per_cycle:.2g} samples a cycle of "
-            f"{length / TURN:.0f} revolutions; "
+            f"{counted(round(length / TURN), 'revolution')}; "
             f"it takes {LEAST_SAMPLES}."
         )
     begin, cycles, closed_angle, closed_values = _whole_cycles(channel, shaft, angle, values, length)
@@ -224,8 +225,8 @@ def _speed_of_shaft(shaft: ShaftAngle, length: float, wanted: int) -> _Record:
     count = fullest.stop - fullest.start
     if count < 2 * LEAST_SAMPLES:
         raise RecordingError(
-            f"{count} pulses or angles in a cycle of {length / TURN:.0f} revolutions do not show what the "
-            f"speed does within it; it takes {2 * LEAST_SAMPLES}."
+            f"{count} pulses or angles in a cycle of {counted(round(length / TURN), 'revolution')} do not "
+            f"show what the speed does within it; it takes {2 * LEAST_SAMPLES}."
         )
     highest = _harmonics_that_fit(shaft.angle[fullest], length)
     samples = round(length / TURN) * wanted

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from rattle.counts import counted
 from rattle.recordings import time_axis, units
 from rattle.recordings.channels import Channel
 from rattle.recordings.faults import RecordingError
@@ -120,7 +121,8 @@ def bridged(channel: Channel, *, limit: float, notes: list[str]) -> Channel:
     finite = np.flatnonzero(np.isfinite(channel.values))
     if finite.size < 4:
         raise RecordingError(
-            f"{channel.source}: '{channel.name}' has {finite.size} samples that are numbers; at least four "
+            f"{channel.source}: '{channel.name}' has "
+            f"{counted(finite.size, 'sample that is a number', 'samples that are numbers')}; at least four "
             "are needed."
         )
     inside = slice(finite[0], finite[-1] + 1)

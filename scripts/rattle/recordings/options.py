@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from rattle import command
+from rattle.counts import counted
 from rattle.recordings.angle import BRIDGE, ShaftAngle, shaft_angle
 from rattle.recordings.channels import RATE, Channel, read_channels, with_units
 from rattle.recordings.faults import RecordingError
@@ -98,8 +99,8 @@ def _within(channel: Channel, begin: float, end: float) -> Channel:
     inside = (channel.time >= begin) & (channel.time <= end)
     if np.sum(inside) < 4:
         raise RecordingError(
-            f"{channel.source}: --part leaves {np.sum(inside)} samples of '{channel.name}', which was "
-            f"recorded from {channel.time[0]:.6g} to {channel.time[-1]:.6g} s."
+            f"{channel.source}: --part leaves {counted(np.sum(inside), 'sample')} of '{channel.name}', which "
+            f"was recorded from {channel.time[0]:.6g} to {channel.time[-1]:.6g} s."
         )
     return replace(channel, time=channel.time[inside], values=channel.values[inside])
 

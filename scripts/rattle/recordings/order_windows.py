@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import optimize
 
+from rattle.counts import counted
 from rattle.recordings.faults import RecordingError
 
 GRID = 32  # points a revolution of the mean angle
@@ -97,7 +98,7 @@ def longest_run(course: Course, cycle_revolutions: int, notes: list[str]) -> Cou
     part = slice(first * every, last * every + every)
     if len(turns) > 2:
         notes.append(
-            f"The speed turns {len(turns) - 2} times; the largest run is taken, "
+            f"The speed turns {counted(len(turns) - 2, 'time')}; the largest run is taken, "
             f"{course.time[part][0]:.4g} to {course.time[part][-1]:.4g} s."
         )
     return Course(course.time[part], course.angle[part], course.speed[part])

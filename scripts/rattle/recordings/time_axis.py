@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from rattle.counts import counted
 from rattle.recordings.faults import RecordingError
 
 # Jitter that is one of the stamps and not of the sampling, in steps; rattle itself allows the same.
@@ -21,7 +22,8 @@ def settle(
         lines = np.zeros(len(time), dtype=int)
     known = np.isfinite(time)
     if not known.all():
-        _note(notes, f"{source}: {np.sum(~known)} samples without a time are left out.")
+        lost = counted(np.sum(~known), "sample without a time is", "samples without a time are")
+        _note(notes, f"{source}: {lost} left out.")
         time, values, lines = time[known], values[known], lines[known]
     if len(time) < 2:
         return time, values
@@ -74,9 +76,10 @@ def _joined(
     sums = np.bincount(place, np.where(finite, values, 0.0))
     numbers = np.bincount(place, finite)
     means = np.where(numbers > 0, sums / np.maximum(numbers, 1), np.nan)
+    several = counted(np.sum(counts > 1), "time stands", "times stand")
     _note(
         notes,
-        f"{source}: {np.sum(counts > 1)} times stand repeatedly, first {times[counts > 1][0]:.9g} s; "
+        f"{source}: {several} repeatedly, first {times[counts > 1][0]:.9g} s; "
         "the mean of their samples is taken.",
     )
     return times, means

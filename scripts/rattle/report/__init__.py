@@ -9,6 +9,7 @@ from pathlib import Path
 import rattle
 from rattle.campaign_result import Campaign
 from rattle.codes import QUANTITIES, words_of
+from rattle.counts import counted
 from rattle.figures import film, film_points
 from rattle.report import (
     asked,
@@ -165,9 +166,8 @@ def film_part(result: Result) -> Parts:
         page.drawing(partial(maker, result.path, choice), FILM_CAPTIONS[stem], f"{result.path.stem} {stem}")
         for _, stem, maker in film.FIGURES
     ]
-    words = (
-        f"The film at {result.row_count} points: load, stiffness and damping of the oil between the flanks."
-    )
+    points = counted(result.row_count, "point")
+    words = f"The film at {points}: load, stiffness and damping of the oil between the flanks."
     seen, folds = table_part(result)
     return [page.paragraph(words), *drawn[:3], *seen], [*page.fold("More pictures", drawn[3:]), *folds]
 
@@ -179,7 +179,7 @@ def table_part(result: Result) -> Parts:
         for name in result.names
         if words_of(name) is None
     ]
-    words = f"The range of each column of the result over its {result.row_count} rows."
+    words = f"The range of each column of the result over its {counted(result.row_count, 'row')}."
     return [], page.fold("All columns", [page.paragraph(words, "note"), page.ranges(rows)])
 
 

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from rattle import rerun
+from rattle import counts, rerun
 from rattle.campaign_plan import GEAR, GRID
 from rattle.campaign_result import Campaign
 from rattle.campaign_section import Section, new_section
@@ -45,7 +45,10 @@ def verdict(campaign: Campaign) -> list[str]:
     classes = [name for name, _ in counted(campaign, "rattle_class").most_common()]
     words = onset.headline(campaign) or look.capital(", ".join(classes)) or "No class"
     complete = campaign.done.all() and not campaign.failed.any()
-    solved = f"All {campaign.row_count} scenes are solved." if complete else done_words(campaign)
+    every = (
+        f"All {campaign.row_count} scenes are solved." if campaign.row_count > 1 else "The scene is solved."
+    )
+    solved = every if complete else done_words(campaign)
     sure = sure_in_short(campaign)
     doubt = not complete or (sure != "" and not sure.startswith("All"))
     return [page.verdict_box(words, None, [solved, sure], doubt=doubt)]
@@ -54,7 +57,8 @@ def verdict(campaign: Campaign) -> list[str]:
 def done_words(campaign: Campaign) -> str:
     """How many scenes are solved, and how many failed."""
     done, failed = int(campaign.done.sum()), int(campaign.failed.sum())
-    return f"{done} of {campaign.row_count} scenes are solved; {failed} of them failed."
+    are = "is" if done == 1 else "are"
+    return f"{done} of {campaign.row_count} scenes {are} solved; {failed} of them failed."
 
 
 def sure_in_short(campaign: Campaign) -> str:
@@ -136,17 +140,20 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
         ]
         yield f"Verdict: {', '.join(shares)}." if shares else "No scene has a verdict."
     if "motions" in campaign:
-        several = campaign.done & (campaign["motions"] > 1.0)
+        several = int((campaign.done & (campaign["motions"] > 1.0)).sum())
         yield (
-            f"{int(several.sum())} scenes have several motions: numbers are those of the motion from rest, "
-            "maps of verdict and class show the loudest and hatch these scenes crosswise."
+            f"{counts.counted(several, 'scene has', 'scenes have')} several motions: numbers are those of "
+            "the motion from rest, maps of verdict and class show the loudest and hatch such scenes "
+            "crosswise."
         )
     if "verdict_verified" in campaign:
         flags = verdict_flags(campaign)
-        yield f"Solved again, tighter, {int((flags == 0.0).sum())} of {flags.size} verdicts are others."
-    counts = counted(campaign, "rattle_class")
-    if counts:
-        shares = [f"{name} in {count} ({look.share(count, done)})" for name, count in counts.most_common()]
+        others = int((flags == 0.0).sum())
+        are = "is another" if others == 1 else "are others"
+        yield f"Solved again, tighter, {others} of {flags.size} verdicts {are}."
+    classes = counted(campaign, "rattle_class")
+    if classes:
+        shares = [f"{name} in {count} ({look.share(count, done)})" for name, count in classes.most_common()]
         yield f"Class of the motion: {', '.join(shares)}."
     elif "rattle_class" in campaign:
         yield "No scene has a class."
@@ -155,33 +162,34 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
     if "verified" in campaign:
         verified, lacking = verifications(campaign)
         yield (
-            f"The class is verified in {verified} scenes: solved again, tighter, it is the same, "
-            "or both halves of an irregular motion agree. "
-            f"{lacking} of {verified + lacking} scenes are not verified."
+            f"The class is verified in {counts.counted(verified, 'scene')}: solved again, tighter, it is the "
+            "same, or both halves of an irregular motion agree. "
+            f"{lacking} of {verified + lacking} scenes {'is' if lacking == 1 else 'are'} not verified."
         )
     else:
         yield "Whether the classes are the same when the scenes are solved again, tighter, was not recorded."
     if "law_contradicted" in campaign:
         count = int((campaign["law_contradicted"][campaign.done] == 1.0).sum())
-        yield f"In {count} scenes the film law is not the one of the regime that the motion reaches."
+        scenes = counts.counted(count, "scene")
+        yield f"In {scenes} the film law is not the one of the regime that the motion reaches."
     elif "film_regime" in campaign:
         regimes = counted(campaign, "film_regime").most_common()
         yield f"Regime of the film: {', '.join(f'{name} in {count}' for name, count in regimes)}."
     for name, sentence in (
         (
             "model_limit",
-            "In {count} scenes the film leaves the range of the model: below 1 nm, or above a tenth of the "
-            "radius.",
+            "In {scenes} the film leaves the range of the model: below 1 nm, or above a tenth of the radius.",
         ),
         (
             "stiffness_matters",
-            "In {count} scenes the teeth deflect, or if they are rigid those of steel would, by more than a "
+            "In {scenes} the teeth deflect, or if they are rigid those of steel would, by more than a "
             "tenth of the film: rigid teeth are no fair assumption there.",
         ),
-        ("double_sided", "In {count} scenes the tooth hits both flanks of its gap."),
+        ("double_sided", "In {scenes} the tooth hits both flanks of its gap."),
     ):
         if name in campaign:
-            yield sentence.format(count=int((campaign[name][campaign.done] >= 1.0).sum()))
+            count = int((campaign[name][campaign.done] >= 1.0).sum())
+            yield sentence.format(scenes=counts.counted(count, "scene"))
 
 
 def verifications(campaign: Campaign) -> tuple[int, int]:

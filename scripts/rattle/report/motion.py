@@ -358,7 +358,7 @@ def figures(result: Result, summary: Summary | None) -> list[str]:
         periods = min(SHOWN_PERIODS, result.whole_periods)
         drawn = page.drawing(
             lambda: histories.draw_film_and_force(runs, labels, periods),
-            f"Film between the flanks under the applied force, over the last {periods} periods of the force.",
+            f"Film between the flanks under the applied force, over {period.words_of_last(periods)}.",
             f"{salt} film",
         )
     return [
@@ -382,7 +382,7 @@ def key_figures(summary: Summary) -> str:
             rows.append([_meaning(name).rstrip("."), page.value(summary[name], unit), known])
     extremes = page.table(("", "Value", "Error at most"), rows, kinds=("", "number", "number"))
     window = (
-        f"The window is the last {summary['window_periods']} periods of the force."
+        f"The window is {period.words_of_last(summary['window_periods'])}."
         if "window_periods" in summary
         else ""
     )

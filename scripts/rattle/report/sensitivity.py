@@ -9,6 +9,7 @@ from rattle.campaign_plan import SAMPLE
 from rattle.campaign_result import Campaign
 from rattle.codes import QUANTITIES
 from rattle.command import CommandError, words_of_import
+from rattle.counts import counted
 from rattle.figures import campaign_look as look
 from rattle.figures.sensitivity import draw, draw_directions
 from rattle.report import page
@@ -50,7 +51,7 @@ def part(campaign: Campaign) -> list[str]:
 
 def sentences(study: sensitivity.Study) -> list[str]:
     """What else is known of a pair."""
-    words = [f"{study.blocks} blocks of {len(study.keys) + 2} scenes."] if study.blocks else []
+    words = [f"{counted(study.blocks, 'block')} of {len(study.keys) + 2} scenes."] if study.blocks else []
     if study.left_out:
         words.append(f"{study.left_out} blocks are left out, since scenes of them failed.")
     if study.probability:

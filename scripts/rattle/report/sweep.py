@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rattle.codes import SUCCESSES, spoken, word
+from rattle.counts import counted
 from rattle.figures import sweep as picture
 from rattle.figures import waterfall
 from rattle.report import motion, page
@@ -101,10 +102,10 @@ def sentences_on(result: Result) -> Iterator[str]:
     both = differing(result)
     if (result["direction"] < 0.0).any():
         if both.size:
+            span = f"from {both.min():.6g} to {both.max():.6g}" if both.size > 1 else f"{both[0]:.6g}"
             yield (
-                f"The decreasing differs from the increasing at {both.size} values of the {name}, from "
-                f"{both.min():.6g} to "
-                f"{both.max():.6g} {unit}: there are two motions, and which one comes depends on the one "
+                f"The decreasing differs from the increasing at {counted(both.size, 'value')} of the {name}, "
+                f"{span} {unit}: there are two motions, and which one comes depends on the one "
                 "before."
             )
         elif known_both_ways(result):

@@ -10,6 +10,7 @@ import numpy as np
 from rattle.campaign_plan import GEAR
 from rattle.campaign_section import short_name
 from rattle.command import CommandError
+from rattle.counts import counted
 from rattle.figures import threshold as picture
 from rattle.figures.campaign_look import capital
 from rattle.figures.threshold_curves import LINES_SENTENCE
@@ -38,7 +39,7 @@ def verdict(result: Result) -> list[str]:
     where = f"at {ends[0]}" if count == 1 else f"between {ends[0]} and {ends[1]}"
     head = f"Impacts begin {where}" if kind == BEGINNING else f"From {kind} {where}"
     lacking, total = int(found.uncertain.sum()), int(crossed.sum())
-    sentences = [f"{total} threshold{'s' if total > 1 else ''}, {count} of this kind."]
+    sentences = [f"{counted(total, 'threshold')}, {count} of this kind."]
     if "verified_below" in result:
         sentences.append(f"{lacking} not numerically verified." if lacking else "All numerically verified.")
     return [page.verdict_box(head, None, sentences, doubt=lacking > 0)]
@@ -112,13 +113,17 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
     if lines > 1 or not crossed.any():
         none = int((~crossed).sum())
         if none:
-            many = f"{none} of {lines} traces have no" if lines > 1 else "The trace has no"
+            many = (
+                f"{none} of {lines} traces {'has' if none == 1 else 'have'} no"
+                if lines > 1
+                else "The trace has no"
+            )
             yield f"{many} threshold in this range."
         else:
             yield "Every trace has a threshold in this range."
     if found.has_ends and crossed.any():
         either = int(found.either.sum())
-        which = f"At {either} of {int(crossed.sum())} thresholds either side is possible beyond it"
+        which = f"At {either} of {counted(int(crossed.sum()), 'threshold')} either side is possible beyond it"
         yield (
             f"{which}: motions of a side, followed from there, last on while those of the other exist. These "
             "thresholds are those of the motion from rest; on the way up a gear changes at last_below, on "
@@ -128,13 +133,13 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
         )
     if found.another_side.any():
         others = int(found.another_side.sum())
-        having = "trace without a threshold has" if others == 1 else "traces without a threshold have"
-        yield f"{others} {having} motions on another side, from other starts: from last_above to last_below."
+        having = counted(others, "trace without a threshold has", "traces without a threshold have")
+        yield f"{having} motions on another side, from other starts: from last_above to last_below."
     if "verified_below" in found.result and crossed.any():
         sure = int(crossed.sum() - found.uncertain.sum())
         yield (
-            f"At {sure} of {int(crossed.sum())} thresholds both ends are numerically verified: solved "
-            "again, tighter, they are on the same side. "
+            f"At {sure} of {counted(int(crossed.sum()), 'threshold')} both ends are numerically verified: "
+            "solved again, tighter, they are on the same side. "
             "Where that is not possible close to the change, its ends lie "
             "farther apart, and the distance between them is how well the threshold is known."
         )
