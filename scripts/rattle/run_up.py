@@ -57,6 +57,15 @@ def is_run_up(result: Result) -> bool:
     return result.names[0] == SPEED and "floquet_modulus" in result and first_order(result) is not None
 
 
+def ways(result: Result) -> dict[str, float]:
+    """Direction of each way that a sweep went, by its word: the key rises on the way up, first or back."""
+    directions = np.asarray(result["direction"])
+    outward = np.asarray(result[result.names[0]])[directions > 0.0]
+    falls = outward.size > 0 and outward[-1] < outward[0]
+    named = {"up": -1.0, "down": 1.0} if falls else {"up": 1.0, "down": -1.0}
+    return {word: direction for word, direction in named.items() if (directions == direction).any()}
+
+
 def pace(result: Result) -> Pace:
     """The pace of a sweep over speed; none of its first value, to which nothing led."""
     speed, way = (np.asarray(result[name], dtype=float) for name in (SPEED, "direction"))
@@ -87,7 +96,7 @@ def _changes(
 
 
 def differing(result: Result) -> np.ndarray:
-    """Values of the key at which the motion on the decreasing is another than on the increasing.
+    """Values of the key at which the motion on the way up is another than on the way down.
 
     Two that both do not repeat are not distinguished: their peaks and classes depend on how long one looks.
     """

@@ -352,7 +352,7 @@ def test_a_sweep_shows_both_ways_and_leaves_gaps(first_column, tmp_path):
     assert period.get_ylim() == (0.5, 4.5)
     assert multiplier.get_ylim() == (0.0, 1.1)
     assert drawn.rules(multiplier, "y") == [1.0]
-    assert drawn.legend_words(made) == ["increasing", "decreasing", "hysteresis"]
+    assert drawn.legend_words(made) == ["up", "down", "hysteresis"]
     # At 200 alone both ways have motions of their own; at 300 that of one way is not known.
     for axes in made.axes:
         (band,) = axes.patches
@@ -372,7 +372,7 @@ def test_a_sweep_names_its_key_and_unit(tmp_path, key, label):
     made = sweep_figure(tmp_path / "climb.rattle", key, only_there)
     assert made.axes[-1].get_xlabel() == label
     assert made.axes[2].get_ylim() == (0.5, 2.5)
-    assert drawn.legend_words(made) == ["increasing"]
+    assert drawn.legend_words(made) == ["up"]
 
 
 def test_several_sweeps_share_the_panels_that_are_asked_for(tmp_path):
@@ -397,7 +397,7 @@ def test_several_sweeps_share_the_panels_that_are_asked_for(tmp_path):
     assert drawn.rules(lines, "y") == [20.0] and drawn.rules(acceleration, "x") == [150.0]
     assert [text.get_text() for text in acceleration.texts] == ["steel"]
     films = "published iso-viscous film"
-    assert drawn.legend_words(made) == [f"soft, {films}", f"hard, {films}", "increasing", "decreasing"]
+    assert drawn.legend_words(made) == [f"soft, {films}", f"hard, {films}", "up", "down"]
 
 
 @pytest.mark.parametrize(

@@ -227,8 +227,8 @@ def test_words_of_a_sweep(solved, run, repository, tmp_path, of_gear):
             "Rate [1/min/s]" if of_gear else None,
             key,
             "here",
-            "increasing",
-            "decreasing" if both else None,
+            "up",
+            "down" if both else None,
             "hysteresis" if differing(result).size else None,
         ],
     )

@@ -411,20 +411,51 @@ def test_a_sweep_is_cut_where_its_class_changes(tmp_path):
     text = "&scene\n name = 'up'\n task = 'sweep'\n/\n&film\n law = 'iso-viscous'\n/\n"
     text += "&sweep\n key = 'frequency'\n/\n"
     page = read_page(report(write_result(tmp_path / "up.rattle", columns, rows, input_text=text)))
-    cut = [row[:4] for row in page.rows if row and row[0] in ("there", "back")]
+    cut = [row[:4] for row in page.rows if row and row[0] in ("up", "down")]
     assert cut == [
-        ["there", "creep", "100\xa0Hz to 200\xa0Hz", "2"],
-        ["there", "idle", "300\xa0Hz to 300\xa0Hz", "1"],
-        ["there", "failed: film_lost", "400\xa0Hz to 400\xa0Hz", "1"],
-        ["back", "idle", "300\xa0Hz to 200\xa0Hz", "2"],
-        ["back", "creep", "100\xa0Hz to 100\xa0Hz", "1"],
+        ["up", "creep", "100\xa0Hz to 200\xa0Hz", "2"],
+        ["up", "idle", "300\xa0Hz to 300\xa0Hz", "1"],
+        ["up", "failed: film_lost", "400\xa0Hz to 400\xa0Hz", "1"],
+        ["down", "idle", "300\xa0Hz to 200\xa0Hz", "2"],
+        ["down", "creep", "100\xa0Hz to 100\xa0Hz", "1"],
     ]
-    extremes = [[number(cell) for cell in row[4:6]] for row in page.rows if row and row[0] == "back"]
+    extremes = [[number(cell) for cell in row[4:6]] for row in page.rows if row and row[0] == "down"]
     np.testing.assert_allclose(extremes, [[1e-7, 77.0], [4e-7, 30.2]])
     assert "1 failed" in page.verdicts[0]
-    assert "differs from the increasing at 1 value of the frequency, 200 Hz" in page.seen
+    words = "The way down differs from the way up at 1 value of the excitation frequency, 200 Hz"
+    assert words in page.seen
     assert "at most 2" in page.seen
     assert "no verification" in page.seen
+
+
+def test_a_sweep_begins_with_verdicts_and_the_largest_film_force(tmp_path):
+    """The key falls first: the way there is the way down. Two motions are complete and not steady."""
+    columns = [("speed_rpm", "1/min"), ("direction", "-"), ("status", "-"), ("film_minimum", "m")]
+    columns += [("film_maximum", "m"), ("acceleration_minimum", "m/s2"), ("acceleration_maximum", "m/s2")]
+    columns += [("orbit_period", "-"), ("floquet_modulus", "-"), ("rattle_class", "-"), ("verdict", "-")]
+    columns += [("film_force_rms", "N")]
+    ways = [(900, 1, 1, 3, 9), (800, 1, 0, 3, 12), (700, 1, 1, 1, 4)]
+    ways += [(800, -1, 0, 3, 11), (900, -1, 3, 0, 99)]
+    rows = [
+        [speed, way, status, 4e-7, 2e-6, -5.0, 30.0, 1, 0.5, 3, verdict, force]
+        for speed, way, status, verdict, force in ways
+    ]
+    text = "&scene\n name = 'fall'\n task = 'sweep'\n/\n&film\n law = 'iso-viscous'\n/\n"
+    text += "&sweep\n key = 'speed_rpm'\n/\n"
+    page = read_page(report(write_result(tmp_path / "fall.rattle", columns, rows, input_text=text)))
+    assert (
+        page.verdicts[0]
+        .strip()
+        .startswith(
+            "Double-sided impacts at 800 to 900 1/min; separation at 700 1/min; "
+            "largest film force 12 N rms at 800 1/min"
+        )
+    )
+    said = "2 steady, 2 not yet steady when their periods ended, 1 failed."
+    assert f"along the shaft speed, from 700 to 900 1/min, each from the one before: {said}" in page.seen
+    assert {row[0] for row in page.rows if row and row[0] in ("up", "down")} == {"up", "down"}
+    assert [row[2] for row in page.rows if row and row[0] == "down"] == ["900\xa01/min to 700\xa01/min"]
+    assert "at a shaft speed of" in page.seen
 
 
 @pytest.mark.parametrize("record", ("'rattle_class', 'acceleration_maximum', 'film_minimum'", "+verified"))

@@ -260,7 +260,7 @@ def test_sweeps_are_compared_way_by_way(rattle, repository, tmp_path) -> None:
         path, set={**given, "load.force_amplitude": 20.0}, folder=tmp_path / "b", program=rattle
     )
     frame = package.variants({"base": base, "other": other})
-    assert len(frame) == len(base.result["direction"]) and set(frame.direction) == {"there", "back"}
+    assert len(frame) == len(base.result["direction"]) and set(frame.direction) == {"up", "down"}
     assert np.array_equal(frame.acceleration_rms_base, base.result["acceleration_rms"])
     assert np.array_equal(frame.acceleration_rms, other.result["acceleration_rms"])
 

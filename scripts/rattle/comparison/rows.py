@@ -19,13 +19,13 @@ from rattle.comparison.difference import DIGITS, level
 from rattle.comparison.variant import Variant
 from rattle.result import Result
 from rattle.result_file import ResultFile
+from rattle.run_up import ways
 from rattle.thresholds import thresholds
 
 ERROR = "_error"
 # Digits to which values of keys agree that are the same: two ways to a point of a grid differ in the last.
 KEY_DIGITS = 10
 THRESHOLD, KIND, CROSSING = "threshold", "kind", "crossing"
-DIRECTION = {1.0: "there", -1.0: "back"}
 
 
 @dataclass(frozen=True)
@@ -157,9 +157,8 @@ def _of_sweep(name: str, result: Result) -> Table:
     key = result.names[0]
     keys = {key: np.asarray(result[key])}
     if "direction" in result:
-        keys["direction"] = np.array(
-            [DIRECTION.get(float(way), "") for way in result["direction"]], dtype=object
-        )
+        words = {direction: word for word, direction in ways(result).items()}
+        keys["direction"] = np.array([words[float(way)] for way in result["direction"]], dtype=object)
     recorded = [column for column in result.names if column in QUANTITIES and column not in EFFORT]
     columns = {column: np.asarray(result[column]) for column in recorded}
     failed = ~np.isin(result["status"], SUCCESSES)

@@ -1,4 +1,4 @@
-"""Steady motions along a swept key, on the increasing and on the decreasing; several sweeps in one figure."""
+"""Steady motions along a swept key, on the ways up and down; several sweeps in one figure."""
 
 from __future__ import annotations
 
@@ -32,10 +32,7 @@ KEY_LABELS = {
     "entrainment_speed": r"Entrainment speed $U$ [m/s]",
     "stiffness": r"Stiffness of the teeth $k$ [N/m]",
 }
-WAYS = (
-    ("increasing", 1.0, style.RUN_COLOURS[0], "-"),
-    ("decreasing", -1.0, style.RUN_COLOURS[1], (0, (4, 2))),
-)
+WAYS = {"up": (style.RUN_COLOURS[0], "-"), "down": (style.RUN_COLOURS[1], (0, (4, 2)))}
 SHADE = "0.85"
 MARKED = 12  # marks along a curve of an overlay
 
@@ -205,10 +202,9 @@ def label_of(name: str, results: Sequence[Result]) -> str:
 def _draw_single(result: Result, all_axes: Mapping[str, Axes]) -> dict[str, object]:
     handles: dict[str, object] = {}
     shaded = _shade(result, all_axes)
-    for name, direction, colour, dashes in WAYS:
+    for name, direction in run_up.ways(result).items():
+        colour, dashes = WAYS[name]
         rows = of_direction(result, direction)
-        if rows.size == 0:
-            continue
         value = result[result.names[0]][rows]
         for panel, axes in all_axes.items():
             for values in PANELS[panel].curves(result, rows):
@@ -246,11 +242,9 @@ def _draw_overlay(results: Sequence[Result], all_axes: Mapping[str, Axes]) -> di
             "markersize": 3.6,
         }
         handles[f"{label}, {style.film_words(result)}"] = Line2D([], [], **look)
-        for name, direction, _, dashes in WAYS:
+        for name, direction in run_up.ways(result).items():
             rows = of_direction(result, direction)
-            if rows.size == 0:
-                continue
-            thin = {"linestyle": dashes, "linewidth": 1.2 if direction > 0.0 else 0.9}
+            thin = {"linestyle": WAYS[name][1], "linewidth": 1.2 if direction > 0.0 else 0.9}
             directions.setdefault(name, Line2D([], [], color=style.FORCE_COLOUR, **thin))
             value = result[result.names[0]][rows]
             marked = _marked(value, position / len(results))
@@ -311,7 +305,7 @@ def _key_label(result: Result) -> str:
 
 
 def of_direction(result: Result, direction: float) -> np.ndarray:
-    """Rows of one direction; the decreasing one begins with the last motion of the increasing one."""
+    """Rows of one direction; the way back begins with the last motion of the way there."""
     rows = np.flatnonzero(result["direction"] == direction)
     if direction < 0.0 and rows.size:
         rows = np.concatenate(([rows[0] - 1], rows))

@@ -163,8 +163,7 @@ def draw(
 
 def draw_ways(result: Result) -> Figure:
     """Levels of a sweep over speed on the way up, of one that turns also down, and their difference."""
-    up, down = way_map(result, 1.0), way_map(result, -1.0)
-    ways = [(up, "up"), (down, "down")][: 1 + bool(down.speeds.size)]
+    ways = [(way_map(result, direction), word) for word, direction in run_up.ways(result).items()]
     figure = Figure(figsize=(style.WIDTH, HEIGHT))
     panels = figure.subplots(1, 2 * len(ways) - 1, sharex=True, sharey=True, squeeze=False)[0]
     every = np.concatenate([shown.amplitudes for shown, _ in ways])
@@ -177,6 +176,7 @@ def draw_ways(result: Result) -> Figure:
         axes.set_title(title)
     _bar(figure, panels[: len(ways)], ScalarMappable(levels, COLOUR_MAP), LEVEL_LABEL)
     if len(ways) > 1:
+        up, down = (shown for shown, _ in ways)
         speeds, of_up, of_down = np.intersect1d(up.speeds, down.speeds, return_indices=True)
         change = down.amplitudes[of_down] - up.amplitudes[of_up]
         most = max(float(np.nanmax(np.abs(change), initial=0.0)), LEAST_CHANGE)
@@ -186,7 +186,7 @@ def draw_ways(result: Result) -> Figure:
         _bar(figure, panels[2:], ScalarMappable(around, DIFFERENCE_COLOURS), "Change [dB]")
     for axes in panels:
         axes.set_xlabel("Order [-]")
-        axes.set_xticks(up.orders[1::2])
+        axes.set_xticks(ways[0][0].orders[1::2])
         for edge in np.ravel(sweep.hysteresis(result)):
             axes.axhline(edge, color="black", linewidth=0.8, linestyle=(0, (4, 2)))
     panels[0].set_ylabel("Shaft speed [1/min]")

@@ -1,4 +1,4 @@
-"""What a report says of a sweep: where along its key the class changes, on the increasing and back."""
+"""What a report says of a sweep: verdicts and classes along its key, on the ways up and down."""
 
 from __future__ import annotations
 
@@ -7,15 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rattle.codes import SUCCESSES, spoken, word
+from rattle.campaign_section import short_name
+from rattle.codes import STATUSES, SUCCESSES, spoken, word
 from rattle.counts import counted
+from rattle.figures import campaign_look as look
 from rattle.figures import sweep as picture
 from rattle.figures import waterfall
 from rattle.report import motion, page
 from rattle.result import Result
-from rattle.run_up import LEFT, SPEED, differing, is_run_up, pace, peaks
+from rattle.run_up import LEFT, SPEED, differing, is_run_up, pace, peaks, ways
 
-WAYS = (("there", 1.0), ("back", -1.0))
+MOST_SPANS = 3  # of one verdict in the headline, before they are counted
 WATERFALL = (
     "Levels of the acceleration relative to the shaft at the orders of the force: up, down, and "
     "down less up. Dashed: where stretches end in which both ways have motions of their own."
@@ -35,7 +37,7 @@ class Stretch:
 
 def key_of(result: Result) -> tuple[str, str]:
     """Name and unit of the swept key."""
-    return result.names[0].replace("_", " "), result.units[result.names[0]]
+    return short_name(result.names[0]), result.units[result.names[0]]
 
 
 def stretches(result: Result) -> list[Stretch]:
@@ -48,7 +50,7 @@ def stretches(result: Result) -> list[Stretch]:
         ]
     )
     found = []
-    for name, direction in WAYS:
+    for name, direction in ways(result).items():
         rows = np.flatnonzero(result["direction"] == direction)
         for part in np.split(rows, np.flatnonzero(words[rows][1:] != words[rows][:-1]) + 1):
             if part.size:
@@ -57,10 +59,38 @@ def stretches(result: Result) -> list[Stretch]:
 
 
 def verdict(result: Result, sentences: Sequence[str]) -> list[str]:
-    """The classes that occur, and what is said before the figure."""
+    """Verdicts along the key and the largest film force, or the classes that occur; what is said first."""
     failed = int((~np.isin(result["status"], SUCCESSES)).sum())
-    words = ", ".join(names(result)) or "no class"
+    words = "; ".join(headline(result)) or ", ".join(names(result)) or "no class"
     return [page.verdict_box(words, None, sentences, doubt=failed > 0)]
+
+
+def headline(result: Result) -> Iterator[str]:
+    """At which values of the key each verdict is, on either way, and where the film force is largest."""
+    values, kept = result[result.names[0]], np.isin(result["status"], SUCCESSES)
+    if "verdict" not in result or not kept.any():
+        return
+    verdicts = result["verdict"]
+    for position, code in enumerate(sorted(np.unique(verdicts[kept]), reverse=True)):
+        name = spoken(word("verdict", code))
+        where = spans(result, kept & (verdicts == code))
+        yield f"{name if position else look.capital(name)} at {where}"
+    if "film_force_rms" in result:
+        row = int(np.argmax(np.where(kept, result["film_force_rms"], -np.inf)))
+        force = page.plain(float(result["film_force_rms"][row]), "N", page.FEW_DIGITS)
+        yield f"largest film force {force} rms at {values[row]:.6g} {result.units[result.names[0]]}"
+
+
+def spans(result: Result, rows: np.ndarray) -> str:
+    """The values of the key of some rows, as in '700 to 900 and 1200 1/min'."""
+    every, unit = np.unique(result[result.names[0]]), result.units[result.names[0]]
+    places = np.flatnonzero(np.isin(every, result[result.names[0]][rows]))
+    parts = np.split(places, np.flatnonzero(np.diff(places) > 1) + 1)
+    if len(parts) > MOST_SPANS:
+        return f"{places.size} values from {every[places[0]]:.6g} to {every[places[-1]]:.6g} {unit}"
+    ends = [(every[part[0]], every[part[-1]]) for part in parts]
+    words = [f"{first:.6g}" if first == last else f"{first:.6g} to {last:.6g}" for first, last in ends]
+    return f"{' and '.join(filter(None, [', '.join(words[:-1]), words[-1]]))} {unit}"
 
 
 def names(result: Result) -> list[str]:
@@ -93,23 +123,25 @@ def numbers(result: Result) -> list[str]:
 def sentences_on(result: Result) -> Iterator[str]:
     name, unit = key_of(result)
     values = result[result.names[0]]
-    failed = int((~np.isin(result["status"], SUCCESSES)).sum())
+    endings = [STATUSES[int(status)] for status in result["status"]]
+    steady, complete = endings.count("steady"), endings.count("complete")
+    open_ended = f"{complete} not yet steady when their periods ended, " if complete else ""
     span = f"from {values.min():.6g} to {values.max():.6g} {unit}"
     yield (
-        f"{result.row_count} steady motions along the {name}, {span}, each from the one before; {failed} "
-        "failed."
+        f"{result.row_count} motions along the {name}, {span}, each from the one before: {steady} steady, "
+        f"{open_ended}{result.row_count - steady - complete} failed."
     )
     both = differing(result)
     if (result["direction"] < 0.0).any():
         if both.size:
             span = f"from {both.min():.6g} to {both.max():.6g}" if both.size > 1 else f"{both[0]:.6g}"
             yield (
-                f"The decreasing differs from the increasing at {counted(both.size, 'value')} of the {name}, "
+                f"The way down differs from the way up at {counted(both.size, 'value')} of the {name}, "
                 f"{span} {unit}: there are two motions, and which one comes depends on the one "
                 "before."
             )
         elif known_both_ways(result):
-            yield "The decreasing has the motions of the increasing."
+            yield "The way down has the motions of the way up."
     if "orbit_period" in result:
         longest = int(np.nanmax(result["orbit_period"], initial=0.0))
         if longest > 1:
@@ -126,14 +158,14 @@ def pace_of_run_up(result: Result) -> Iterator[str]:
     if row is None:
         yield "No rate of a run-up is known at which these are its motions: no multiplier below 1 is known."
         return
-    way = next(name for name, direction in WAYS if direction == result["direction"][row])
+    way = next(name for name, direction in ways(result).items() if direction == result["direction"][row])
     yield (
         f"A run-up has these motions if it is driven at {found.rates[row]:.3g} 1/min/s or slower: a "
         f"disturbance then shrinks to {LEFT:.0%} from one value to the next. What takes longest is the way "
         f"{way} at {result[SPEED][row]:.6g} 1/min, where {result['floquet_modulus'][row]:.3g} of it is left "
         "after each period of the motion. Finer steps, the more towards a jump, take longer."
     )
-    for direction, words in ((1.0, "up"), (-1.0, "down")):
+    for words, direction in ways(result).items():
         spans = [f"{a:.6g} and {b:.6g}" for a, b, own in found.changes if own == direction]
         if spans:
             yield (
@@ -149,9 +181,9 @@ def pace_of_run_up(result: Result) -> Iterator[str]:
 
 
 def known_both_ways(result: Result) -> bool:
-    """Whether any value of the key has a motion on the increasing and one on the decreasing."""
+    """Whether any value of the key has a motion on the way up and one on the way down."""
     kept = np.isin(result["status"], SUCCESSES)
-    there, back = (result[result.names[0]][kept & (result["direction"] == way)] for _, way in WAYS)
+    there, back = (result[result.names[0]][kept & (result["direction"] == way)] for way in (1.0, -1.0))
     return bool(np.isin(back, there).any())
 
 
@@ -173,7 +205,7 @@ def tables(result: Result) -> list[str]:
 
 def figures(result: Result) -> list[str]:
     caption = (
-        "Steady motions along the swept key: thinnest and thickest film, largest acceleration, period of "
+        "Motions along the swept key: thinnest and thickest film, largest acceleration, period of "
         "the motion, "
         "and how much of a disturbance is left after one period (below 1: the motion is stable)."
     )
