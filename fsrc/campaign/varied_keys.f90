@@ -4,7 +4,7 @@ module varied_keys
    use input_key, only: allowed_text, in_range, integer_kind, is_computable, not_computable_text, real_kind
    use key_table, only: find_key, key_name, keys, known_group, nearest_group, nearest_key
    use kinds, only: dp
-   use mistaken_units, only: meant_behind, mistaken_words
+   use mistaken_units, only: likely_reason, meant_behind
    use scene_rules, only: broken_rules, rule_t
    use scene_types, only: scene_t, set_number
    use text, only: lower, real_text
@@ -112,8 +112,8 @@ contains
       if (is_valid_scene) is_valid_scene = size(derived_rules(scene)) == 0
    end function is_valid_scene
 
-   !> What is wrong with a scene that is not valid: the first of its varied keys whose value is not allowed, or was surely meant in
-   !> another unit, or the rule that the scene as a whole breaks.
+   !> What is wrong with a scene that is not valid: the first of its varied keys whose value is not allowed, or the rule that the
+   !> scene as a whole breaks, and values that were surely meant in another unit.
    pure function why_invalid(scene, positions, values) result(words)
       !> The scene with its values set
       type(scene_t), intent(in) :: scene
@@ -133,14 +133,12 @@ contains
          words = words//meant_behind(keys(positions(i)), values(i))
          return
       end do
-      do i = 1, size(positions)
-         words = mistaken_words(keys(positions(i)), values(i))
-         if (len(words) == 0) cycle
-         words = key_name(positions(i))//': '//words
-         return
-      end do
-      allocate (broken, source=[broken_rules(scene), derived_rules(scene)])
+      ! What is wrong with the data of a gear or an oil comes before what follows from it.
+      allocate (broken, source=[derived_rules(scene), broken_rules(scene)])
       words = broken(1)%keys(:index(broken(1)%keys, ' ') - 1)//': '//trim(broken(1)%sentence)
+      do i = 1, size(positions)
+         words = words//likely_reason(keys(positions(i)), values(i))
+      end do
    end function why_invalid
 
 end module varied_keys

@@ -8,7 +8,7 @@ module completed_scene
    use key_table, only: find_key, keys
    use kinds, only: dp
    use loose_gear_drag, only: gap_is_turbulent
-   use mistaken_units, only: mistaken_words
+   use mistaken_units, only: likely_reason
    use odd_teeth, only: warnings_of_teeth
    use oil_data, only: kinematic_viscosity, least_viscosity_meant
    use scene_rules, only: rule_t
@@ -40,14 +40,16 @@ contains
       if (.not. (scene%gear%given .or. scene%oil%given)) return
       call derive(scene)
       allocate (broken, source=derived_rules(scene))
-      if (size(broken) > 0 .and. size(scene%mistaken) > 0) call add_mistaken_units(scene, broken, faults)
       do i = 1, size(broken)
          associate (key => broken(i)%keys)
             dot = index(key, '.')
             call faults%add(scene%source, scene%lines(find_key(key)), key(:dot - 1), trim(key(dot + 1:)), trim(broken(i)%sentence))
          end associate
       end do
-      if (faults%count() > before) return
+      if (faults%count() > before) then
+         call add_mistaken_units(scene, size(broken), faults)
+         return
+      end if
       if (scene%task == task_sweep) call check_sweep(scene, faults)
       if (scene%oil%given) call tell_oil(scene)
       if (scene%gear%given) call tell_gear(scene)
@@ -56,26 +58,31 @@ contains
       if (scene%gear%given) call tell_teeth(scene)
    end subroutine complete_scene
 
-   !> Units come before rules: numbers that were surely meant in another unit are refused, and of the rules only those remain that
-   !> the scene breaks in these units, too.
+   !> Behind the rules that a scene breaks, numbers that were surely meant in another unit: the likely reason, if the scene breaks
+   !> fewer rules with what was meant.
    subroutine add_mistaken_units(scene, broken, faults)
       type(scene_t), intent(in) :: scene
-      type(rule_t), allocatable, intent(inout) :: broken(:)
+      !> How many rules it breaks
+      integer, intent(in) :: broken
       type(fault_list_t), intent(inout) :: faults
-      type(rule_t), allocatable :: still_broken(:)
       type(scene_t) :: meant
+      character(:), allocatable :: role
       integer :: i
 
       meant = scene
       do i = 1, size(scene%mistaken)
-         associate (number => scene%mistaken(i), key => keys(scene%mistaken(i)%key))
-            call faults%add(number%source, number%line, trim(key%group), trim(key%name), number%sentence)
-            call set_number(meant, key%group, key%name, number%meant)
+         associate (key => keys(scene%mistaken(i)%key))
+            call set_number(meant, key%group, key%name, scene%mistaken(i)%meant)
          end associate
       end do
       call derive(meant)
-      allocate (still_broken, source=derived_rules(meant))
-      broken = pack(broken, [(any(still_broken%keys == broken(i)%keys), i=1, size(broken))])
+      role = ''
+      if (size(derived_rules(meant)) < broken) role = 'the likely reason: '
+      do i = 1, size(scene%mistaken)
+         associate (number => scene%mistaken(i), key => keys(scene%mistaken(i)%key))
+            call faults%add(number%source, number%line, trim(key%group), trim(key%name), role//number%sentence)
+         end associate
+      end do
    end subroutine add_mistaken_units
 
    !> The scenes at all values of a sweep can be derived.
@@ -84,7 +91,6 @@ contains
       type(fault_list_t), intent(inout) :: faults
       type(rule_t), allocatable :: broken(:)
       type(scene_t) :: swept
-      character(:), allocatable :: sentence
       integer :: i
 
       swept = scene
@@ -95,10 +101,9 @@ contains
             if (allocated(broken)) deallocate (broken)
             allocate (broken, source=derived_rules(swept))
             if (size(broken) == 0) cycle
-            sentence = mistaken_words(keys(sweep%key), sweep%values(i))
-            if (len(sentence) == 0) sentence = trim(broken(1)%sentence)
             call faults%add(scene%source, 0, 'sweep', trim(merge('last ', 'first', i == sweep%outward)), &
-                            'at '//short_text(sweep%values(i), 7)//': '//sentence)
+                            'at '//short_text(sweep%values(i), 7)//': '//trim(broken(1)%sentence)// &
+                            likely_reason(keys(sweep%key), sweep%values(i)))
             exit
          end do
       end associate

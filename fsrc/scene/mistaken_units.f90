@@ -89,7 +89,7 @@ module mistaken_units
       mistake_t('oil', 'pressure_viscosity', '1/GPa', 1.0e-9_dp, 1.0e-10_dp, 1.0e-7_dp), &
       mistake_t('oil', 'pressure_viscosity', '1/MPa', 1.0e-6_dp, 1.0e-10_dp, 1.0e-7_dp)]
 
-   public :: is_odd, odd_words, meant_behind, mistaken_words, surely_meant, acceleration_meant, speed_meant
+   public :: is_odd, odd_words, meant_behind, mistaken_words, likely_reason, surely_meant, acceleration_meant, speed_meant
 
 contains
 
@@ -158,6 +158,17 @@ contains
       words = meant_behind(key, number)
       if (len(words) > 0) words = odd_words(key, number, '')//words
    end function mistaken_words
+
+   !> The same behind what is wrong with a scene that has the number.
+   pure function likely_reason(key, number) result(words)
+      type(key_t), intent(in) :: key
+      !> Finite number
+      real(dp), intent(in) :: number
+      character(:), allocatable :: words
+
+      words = mistaken_words(key, number)
+      if (len(words) > 0) words = '; the likely reason: '//trim(key%group)//'.'//trim(key%name)//' = '//words
+   end function likely_reason
 
    !> What a number would be in the unit that it was surely meant in, the likeliest of them; the number itself where there is none.
    pure real(dp) function surely_meant(key, number)

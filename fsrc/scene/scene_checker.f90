@@ -6,7 +6,7 @@ module scene_checker
    use key_table, only: find_key, find_swept_key, key_name, keys
    use keys_in_use, only: in_use, reason_unused
    use kinds, only: dp
-   use mistaken_units, only: meant_behind, mistaken_words
+   use mistaken_units, only: likely_reason, meant_behind
    use memory, only: expect_memory
    use quantities, only: a_count, a_number, quantity_code, quantity_table
    use scene_input, only: scene_input_t
@@ -146,33 +146,29 @@ contains
       call input%put_laws(scene)
       allocate (broken, source=broken_rules(scene))
       do i = 1, size(broken)
-         if (.not. is_clear(input, broken(i)%keys)) cycle
-         if (.not. has_mistaken_unit(input, broken(i)%keys)) &
-            call input%refuse(broken(i)%keys(:index(broken(i)%keys, ' ') - 1), trim(broken(i)%sentence))
+         if (is_clear(input, broken(i)%keys)) &
+            call input%refuse(broken(i)%keys(:index(broken(i)%keys, ' ') - 1), &
+                              trim(broken(i)%sentence)//reasons_for(input, broken(i)%keys))
       end do
    end subroutine check_rules
 
-   !> Whether a number of a rule was surely meant in another unit: then that is what is wrong, not the rule, and it is refused.
-   logical function has_mistaken_unit(input, names)
-      type(scene_input_t), intent(inout) :: input
+   !> Numbers of a broken rule that were surely meant in another unit, behind its sentence.
+   function reasons_for(input, names) result(reasons)
+      type(scene_input_t), intent(in) :: input
       !> Keys of the rule as group.name, with blanks between
       character(*), intent(in) :: names
+      character(:), allocatable :: reasons
       type(word_t), allocatable :: words(:)
-      character(:), allocatable :: sentence
       integer :: i, position
 
-      has_mistaken_unit = .false.
+      reasons = ''
       allocate (words, source=split_words(names))
       do i = 1, size(words)
          position = find_key(words(i)%text)
          if (keys(position)%kind /= real_kind .or. .not. input%entries(position)%given) cycle
-         sentence = mistaken_words(keys(position), input%entries(position)%number)
-         if (len(sentence) == 0) cycle
-         has_mistaken_unit = .true.
-         if (.not. input%entries(position)%faulty) call input%refuse(words(i)%text, sentence)
-         input%entries(position)%faulty = .true.
+         reasons = reasons//likely_reason(keys(position), input%entries(position)%number)
       end do
-   end function has_mistaken_unit
+   end function reasons_for
 
    !> Whether all keys of a rule have a value that could be read.
    pure logical function is_clear(input, names)
@@ -460,9 +456,8 @@ contains
          allocate (broken, source=broken_rules(swept))
          do j = 1, size(broken)
             if (index(broken(j)%keys, key_name(position)//' ') == 0 .or. .not. is_clear(input, broken(j)%keys)) cycle
-            message = mistaken_words(keys(position), ends(i))
-            if (len(message) == 0) message = trim(broken(j)%sentence)
-            call input%refuse('sweep.'//merge('first', 'last ', i == 1), message)
+            call input%refuse('sweep.'//merge('first', 'last ', i == 1), &
+                              trim(broken(j)%sentence)//likely_reason(keys(position), ends(i)))
          end do
       end do
    end subroutine check_sweep

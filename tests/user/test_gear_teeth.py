@@ -175,28 +175,32 @@ def test_log_and_summary_tell_shifts_and_ratios(run, tmp_path: Path) -> None:
     assert said in (tmp_path / "results" / "pair.log").read_text().splitlines()
 
 
-def test_units_come_before_geometry(check) -> None:
-    """A module in millimetres beside a centre distance in metres: the unit is wrong, not the distance."""
+def test_a_unit_is_the_likely_reason_of_a_fault(check) -> None:
+    """A module in millimetres beside a centre distance in metres: what is wrong with the pair, then why."""
     text = PAIR.replace("2.5e-3", "2.5, centre_distance = 0.070")
-    _, _, (fault,) = check(text=text)
-    assert fault == (
-        "pair.nml:4: &gear normal_module: 2.5 m is not what machines have (3.0E-4 to 0.05 m); "
-        "it would be 0.002500 m if it was meant in mm"
+    _, _, (fault, reason) = check(text=text)
+    assert fault.endswith(": &gear centre_distance: it must exceed the sum of the base radii")
+    assert reason == (
+        "pair.nml:4: &gear normal_module: the likely reason: 2.5 m is not what machines have (3.0E-4 to "
+        "0.05 m); it would be 0.002500 m if it was meant in mm"
     )
-    # All of them, and what is wrong beside them; the width alone would be a warning.
+    # All of them, behind all that is wrong; the width alone would be a warning.
     _, _, faults = check("gear.contact_position=0.5", "gear.face_width=16", text=text)
-    assert [fault.partition("; ")[2] for fault in faults] == [
+    reasons = [fault.partition("; ")[2] for fault in faults if "the likely reason: " in fault]
+    assert reasons == [
         f"it would be {meant} m if it was meant in mm" for meant in ("0.002500", "0.01600", "5.000E-4")
     ]
+    assert not any("reason" in fault for fault in faults[: -len(reasons)]) and len(faults) > len(reasons)
     tips = ("gear.tip_diameter_1=36.3", "gear.tip_diameter_2=113.6")
     _, _, faults = check(*tips)
-    assert [fault.rpartition("; ")[2] for fault in faults] == [
+    assert [fault.rpartition("; ")[2] for fault in faults[-2:]] == [
         f"it would be {meant} m if it was meant in mm" for meant in ("0.03630", "0.1136")
     ]
     # An order that no multiple of another makes stays wrong in any unit.
     orders = ("shaft.orders=1.0,3.14159265358979", "shaft.accelerations=600.0,60.0")
     _, _, faults = check("gear.immersion_depth=40", "gear.drag_scale=1.0", *orders, text=computed_drag())
-    assert ["meant in mm" in fault for fault in faults] == [True, False] and "no common divisor" in faults[1]
+    assert ["the likely reason: 40.0 m" in fault for fault in faults] == [False, False, True]
+    assert "cannot lie 4.000E+01 m below the oil" in faults[0] and "no common divisor" in faults[1]
 
 
 def computed_drag() -> str:
@@ -219,23 +223,27 @@ def of_parts() -> str:
         (("oil.viscosity_40_cst=0.5", "oil.viscosity_100_cst=9.6"), "574.7 mm2/s if it was meant in Pa s"),
     ],
 )
-def test_units_come_before_rules_between_keys(settings, meant: str, check) -> None:
+def test_a_unit_is_the_likely_reason_of_a_fault_between_keys(settings, meant: str, check) -> None:
     _, _, (fault,) = check(*settings)
     assert fault.endswith(meant)
 
 
-def test_units_come_before_geometry_where_keys_are_varied(check, tmp_path: Path) -> None:
+def test_a_unit_is_the_likely_reason_where_keys_are_varied(check, tmp_path: Path) -> None:
     text = PAIR.replace("face_width", "centre_distance = 0.070, face_width")
     varied = "vary = 'gear.normal_module', first = 2.4, last = 2.5, count = 2"
     _, _, faults = check(text=f"{text}&scene task = 'campaign' /\n&campaign {varied} /\n")
-    assert "it would be 0.002400 m if it was meant in mm" in faults[0]
+    assert "centre_distance: it must exceed the sum of the base radii; the likely reason: " in faults[0]
+    assert "normal_module = 2.4 m is not" in faults[0]
+    assert "; it would be 0.002400 m if it was meant in mm; " in faults[0]
     (tmp_path / "run_up.csv").write_text("speed_rpm,acceleration_2\n600,500\n6000,300\n")
     text = PAIR.replace("orders = 2.0, accelerations = 600.0", "table = 'run_up.csv'")
-    _, _, (fault,) = check("shaft.speed_rpm=15", text=text)
-    assert fault.endswith("it would be 900.0 1/min if it was meant in Hz")
+    _, _, (fault, reason) = check("shaft.speed_rpm=15", text=text)
+    assert "likely reason" in reason and "likely reason" not in fault
+    assert reason.endswith("it would be 900.0 1/min if it was meant in Hz")
     varied = "key = 'speed_rpm', first = 15, last = 30, count = 2"
     _, _, (fault,) = check(text=f"{text}&scene task = 'sweep' /\n&sweep {varied} /\n")
-    assert fault.startswith("pair.nml: &sweep first: at 15.00000: 15.0 1/min is not what machines have")
+    assert fault.startswith("pair.nml: &sweep first: at 15.00000: ")
+    assert "; the likely reason: shaft.speed_rpm = 15.0 1/min is not what machines have" in fault
 
 
 @pytest.mark.parametrize(
