@@ -137,8 +137,7 @@ def sentences_on(result: Result) -> Iterator[str]:
             span = f"from {both.min():.6g} to {both.max():.6g}" if both.size > 1 else f"{both[0]:.6g}"
             yield (
                 f"The way down differs from the way up at {counted(both.size, 'value')} of the {name}, "
-                f"{span} {unit}: there are two motions, and which one comes depends on the one "
-                "before."
+                f"{span} {unit}: there are two motions, and which one comes depends on the one before."
             )
         elif known_both_ways(result):
             yield "The way down has the motions of the way up."
