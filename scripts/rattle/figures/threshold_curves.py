@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,6 +16,9 @@ from rattle.campaign_section import Section, short_name
 from rattle.command import CommandError
 from rattle.figures import style
 from rattle.thresholds import Thresholds, words_of_criterion
+
+# Values along the x axis, and along the y axis.
+Points = tuple[np.ndarray, np.ndarray]
 
 SHADE = 0.1  # opacity; where several rattle it adds up
 EITHER = "either is possible"
@@ -80,7 +83,7 @@ def within(axes: Axes, x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 def draw_ends(
     axes: Axes,
-    parts: Sequence[tuple[np.ndarray, np.ndarray]],
+    parts: Sequence[Points],
     along: Axis,
     looks: Mapping[str, Mapping],
     upwards: bool = True,
@@ -96,7 +99,7 @@ def draw_ends(
     return handles
 
 
-def line_ends(parts: Sequence[tuple[np.ndarray, np.ndarray]], along: Axis) -> tuple[np.ndarray, np.ndarray]:
+def line_ends(parts: Sequence[Points], along: Axis) -> tuple[Points, Points]:
     """Points (x and y of each) at which lines end within the axis, and those on both sides of jumps."""
     ends, jumps = [], []
     for x, y in parts:
@@ -108,8 +111,13 @@ def line_ends(parts: Sequence[tuple[np.ndarray, np.ndarray]], along: Axis) -> tu
             if len(points) == 1 or along.values[0] < points[end][0] < along.values[-1]
         ]
         jumps += [points[gap + side] for gap in np.flatnonzero(np.isnan(x)) for side in (-1, 1)]
-    one_each = (np.array(list(dict.fromkeys(found))).reshape(-1, 2).T for found in (ends, jumps))
-    return tuple(one_each)
+    return _points(ends), _points(jumps)
+
+
+def _points(found: Sequence[tuple[float, float]]) -> Points:
+    """Points, each once."""
+    each = np.array(list(dict.fromkeys(found))).reshape(-1, 2)
+    return each[:, 0], each[:, 1]
 
 
 def of_section(section: Section, found: Thresholds) -> tuple[Thresholds, str]:
@@ -139,12 +147,13 @@ def value_of(section: Section, axis: Axis) -> float | None:
     return next((held.value for held in section.held if held.axis.key == axis.key), None)
 
 
-def curves(found: Thresholds, axis: Axis, chosen: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
+def curves(found: Thresholds, axis: Axis, chosen: np.ndarray) -> list[Points]:
     """Crossings of one kind joined from trace to trace, with a gap at each jump."""
-    return [
-        tuple(gapped(jumps(found, axis, rows), x, found.values[rows]))
-        for x, rows in joined_rows(found, axis, chosen)
-    ]
+    parts = []
+    for x, rows in joined_rows(found, axis, chosen):
+        broken = jumps(found, axis, rows)
+        parts.append((gapped(x, broken), gapped(found.values[rows], broken)))
+    return parts
 
 
 def joined_rows(found: Thresholds, axis: Axis, chosen: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
@@ -199,14 +208,14 @@ def jumps(found: Thresholds, axis: Axis, rows: np.ndarray) -> np.ndarray:
     return np.flatnonzero((np.abs(steps) > far) & (np.abs(slopes) > STEEPER * usual)) + 1
 
 
-def gapped(places: np.ndarray, *columns: np.ndarray) -> Iterator[np.ndarray]:
-    """Columns of a curve with a gap before each of these places."""
-    return (np.insert(column, places, np.nan) for column in columns)
+def gapped(values: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Values along a curve with a gap before each of these places."""
+    return np.insert(values, places, np.nan)
 
 
 def joined_pairs(found: Thresholds, axis: Axis, chosen: np.ndarray) -> set[tuple[int, int]]:
     """Rows of neighbouring traces between which a curve of some kind is drawn."""
-    pairs = set()
+    pairs: set[tuple[int, int]] = set()
     for kind in dict.fromkeys(found.kinds[chosen]):
         for _, rows in joined_rows(found, axis, chosen & (found.kinds == kind)):
             broken = set(jumps(found, axis, rows).tolist())
@@ -221,7 +230,8 @@ def draw_either(axes: Axes, found: Thresholds, axis: Axis, chosen: np.ndarray, c
         return
     low, high = (np.where(chosen & found.either, values, np.nan) for values in found.ends)
     for values_of_key, rows in joined_rows(found, axis, chosen):
-        x, *ends = gapped(jumps(found, axis, rows), values_of_key, low[rows], high[rows])
+        broken = jumps(found, axis, rows)
+        x, *ends = (gapped(values, broken) for values in (values_of_key, low[rows], high[rows]))
         axes.fill_between(x, *ends, color=colour, alpha=0.16, linewidth=0.0, zorder=1.5)
         for values in ends:
             axes.plot(x, values, color=colour, linewidth=0.8, linestyle=(0, (1.2, 1.0)), zorder=2)

@@ -99,8 +99,8 @@ def _within(channel: Channel, begin: float, end: float) -> Channel:
     inside = (channel.time >= begin) & (channel.time <= end)
     if np.sum(inside) < 4:
         raise RecordingError(
-            f"{channel.source}: --part leaves {counted(np.sum(inside), 'sample')} of '{channel.name}', which "
-            f"was recorded from {channel.time[0]:.6g} to {channel.time[-1]:.6g} s."
+            f"{channel.source}: --part leaves {counted(int(np.sum(inside)), 'sample')} of '{channel.name}', "
+            f"which was recorded from {channel.time[0]:.6g} to {channel.time[-1]:.6g} s."
         )
     return replace(channel, time=channel.time[inside], values=channel.values[inside])
 

@@ -76,7 +76,7 @@ def _joined(
     sums = np.bincount(place, np.where(finite, values, 0.0))
     numbers = np.bincount(place, finite)
     means = np.where(numbers > 0, sums / np.maximum(numbers, 1), np.nan)
-    several = counted(np.sum(counts > 1), "time stands", "times stand")
+    several = counted(int(np.sum(counts > 1)), "time stands", "times stand")
     _note(
         notes,
         f"{source}: {several} repeatedly, first {times[counts > 1][0]:.9g} s; "
