@@ -3,6 +3,7 @@ module row_counts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: dp, int64
    use rattle_class, only: class_irregular, class_irregular_so_far
+   use regime_check, only: outside_closure
    use scene_status, only: is_success
    implicit none(type, external)
    private
@@ -17,7 +18,9 @@ module row_counts
    integer, parameter, public :: count_irregular = 7, count_irregular_so_far = 8
    !> Scenes whose motions are known, and those of them that have several
    integer, parameter, public :: count_followed = 9, count_several = 10
-   integer, parameter, public :: counts_of_rows = 10
+   !> Scenes whose film is extrapolated by its closure
+   integer, parameter, public :: count_extrapolated = 11
+   integer, parameter, public :: counts_of_rows = 11
 
    public :: count_rows
 
@@ -43,6 +46,7 @@ contains
                                                      real(class_irregular_so_far, dp))
       counts(count_followed) = count_between('motions', 1.0_dp, huge(1.0_dp))
       counts(count_several) = count_between('motions', 2.0_dp, huge(1.0_dp))
+      counts(count_extrapolated) = count_between('closure_range', real(outside_closure, dp), real(outside_closure, dp))
 
    contains
 

@@ -15,10 +15,10 @@ module run_campaign
    use output_place, only: result_path, stem, summary_path
    use prepared_campaign, only: campaign_t, prepare_campaign
    use ranks, only: add_over_ranks, next_tickets, rank_count, this_rank
-   use row_counts, only: count_beyond_model, count_done, count_failed, count_followed, count_irregular, count_irregular_so_far, &
-      count_rows, count_several, count_tested, count_uncertain, count_undersampled
+   use row_counts, only: count_beyond_model, count_done, count_extrapolated, count_failed, count_followed, count_irregular, &
+      count_irregular_so_far, count_rows, count_several, count_tested, count_uncertain, count_undersampled
    use scene_summary, only: add_notes, add_results
-   use regime_check, only: outside_model
+   use regime_check, only: extrapolated_closure, outside_model
    use scene_status, only: status_complete, status_interrupted, status_name, status_not_written
    use scene_types, only: scene_t
    use schedule, only: pace_t
@@ -303,6 +303,8 @@ contains
          call summary%add('scenes_failed_in_this_run', counts(count_failed))
          call summary%add('scenes_beyond_model_in_this_run', counts(count_beyond_model))
          call summary%add('scenes_undersampled_in_this_run', counts(count_undersampled))
+         if (any(task%campaign%layout%names == 'closure_range')) &
+            call summary%add('scenes_extrapolated_in_this_run', counts(count_extrapolated))
          if (any(task%campaign%layout%names == 'verified')) &
             call summary%add('scenes_not_verified_in_this_run', counts(count_uncertain))
          if (any(task%campaign%layout%names == 'rattle_class')) then
@@ -359,6 +361,8 @@ contains
                                                      counted(longest%steps, 'step'))
          call log%item('files', summary_path(scene)//', .rattle, .log')
          if (counts(count_beyond_model) > 0) call log%item('warning', outside_model(counted(counts(count_beyond_model), 'scene')))
+         if (counts(count_extrapolated) > 0) call log%item('warning', extrapolated_closure( &
+            integer_text(counts(count_extrapolated)), counted(counts(count_done), 'scene'), scene%film%automatic))
          if (counts(count_undersampled) > 0) call log%item('warning', 'harmonics of '// &
             counted(counts(count_undersampled), 'scene')//' are not resolved (sampling_sufficient); '// &
             'raise campaign.samples_per_period')

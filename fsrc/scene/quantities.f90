@@ -429,7 +429,8 @@ module quantities
       quantity_t(quantity_law_contradicted, 'law_contradicted', '-', a_flag, part_regime, needs_regime, 'summary campaign', &
          'Whether the film law of the scene does not hold in its regime.'), &
       quantity_t(quantity_closure_range, 'closure_range', '-', a_code, part_regime, needs_closure_range, 'summary campaign', &
-         'Whether loads, oil and pressures of an elastohydrodynamic film stay within those that its closure was fitted to.', &
+         'Whether loads, oil and pressures of an elastohydrodynamic film stay within those that its closure was fitted to; '// &
+         'campaigns that find its pressure record it.', &
          'within|outside'), &
       quantity_t(quantity_film_model, 'film_model', '-', a_code, part_regime, needs_nothing, 'summary campaign', &
          'Model of the elastohydrodynamic film by which the motion is solved; recorded of every row of film.model = automatic.', &

@@ -3,8 +3,8 @@ module task_reader
    use key_table, only: find_swept_key, keys
    use keys_in_use, only: in_use
    use kinds, only: dp
-   use quantities, only: class_words, least_verdict_with_impacts, quantity_code, quantity_film_model, quantity_rattle_class, &
-                         quantity_verdict
+   use quantities, only: class_words, least_verdict_with_impacts, need_count, needs_of, needs_regime, quantity_closure_range, &
+                         quantity_code, quantity_film_model, quantity_rattle_class, quantity_verdict
    use scene_input, only: scene_input_t
    use scene_types, only: campaign_choice_t, film_points_t, model_numerical, model_published, sweep_t, threshold_t
    use word_list, only: split_words, word_position, word_t
@@ -79,6 +79,7 @@ contains
       type(campaign_choice_t) :: campaign
       type(word_t), allocatable :: recorded(:)
       integer, allocatable :: scales(:)
+      logical :: needed(need_count)
       integer :: i, count
 
       allocate (campaign%vary, source=split_words(input%words('campaign.vary')))
@@ -102,6 +103,10 @@ contains
       ! Which model a row is from is recorded.
       if (input%word('film.model') == 'automatic' .and. .not. any(campaign%record == quantity_film_model)) &
          campaign%record = [campaign%record, quantity_film_model]
+      ! So is whether the closure is extrapolated, where the pressures that it takes are found anyway: alone they cost a tenth.
+      needed = needs_of(campaign%record)
+      if (input%word('film.law') == 'elastohydrodynamic' .and. needed(needs_regime) .and. &
+          .not. any(campaign%record == quantity_closure_range)) campaign%record = [campaign%record, quantity_closure_range]
       campaign%samples_per_period = input%count('campaign.samples_per_period')
       campaign%neighbours = input%flag('campaign.neighbours')
       campaign%allow_invalid = input%flag('campaign.allow_invalid')

@@ -44,7 +44,7 @@ module regime_check
    integer, parameter, public :: within_closure = 0, outside_closure = 1
 
    public :: check_regime, steady_alpha_p, regime_sentence, fitting_law, closure_range, closure_range_sentence, model_limit, &
-             model_limit_sentence, outside_model
+             model_limit_sentence, extrapolated_closure, outside_model
 
 contains
 
@@ -153,6 +153,23 @@ contains
                     short_text(closure%material*pressure/closure%pressure_unit, 3)//' (closure_range)'
       end associate
    end function closure_range_sentence
+
+   !> The same of the scenes of a campaign.
+   pure function extrapolated_closure(which, all_scenes, automatic) result(words)
+      !> How many, as '3', of how many, as '5 scenes'
+      character(*), intent(in) :: which
+      character(*), intent(in) :: all_scenes
+      !> Whether films in nodes were tried there
+      logical, intent(in) :: automatic
+      character(:), allocatable :: words
+
+      words = 'the film is extrapolated beyond what its closure is fitted to in '//which//' of '//all_scenes//' (closure_range); '
+      if (automatic) then
+         words = words//'films in nodes stopped there'
+      else
+         words = words//"film.model = 'automatic' solves these in nodes, as 'resolved' does a single scene"
+      end if
+   end function extrapolated_closure
 
    !> Which limits a motion has passed.
    elemental integer function model_limit(film_minimum, film_maximum, radius)

@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from outcomes import summary_of
+from report_reader import read_page
+from script_calls import call_script
 
 import rattle as package
 from rattle.codes import CODES
@@ -117,6 +119,37 @@ def test_a_gear_says_where_the_closure_was_not_fitted(tmp_path: Path) -> None:
     hard = package.run(GEAR, set={"load.force_scale": 10.0}).summary
     assert calm["closure_range"] == "within" and hard["closure_range"] != "within"
     assert np.isfinite(hard["acceleration_maximum"])
+
+
+@pytest.mark.parametrize(
+    "record", ["'verdict', 'law_contradicted'", "'verdict', 'closure_range'", "'verdict'"]
+)
+def test_a_campaign_counts_the_scenes_whose_closure_is_extrapolated(run, tmp_path: Path, record: str) -> None:
+    """As each scene says alone; where no pressure is found the report says that this is not known."""
+    varied = "vary = 'load.force_scale', first = 0.3, last = 10.0, count = 3"
+    text = f"{GEAR}&scene task = 'campaign', name = 'many' /\n&campaign {varied}, record = {record} /\n"
+    (tmp_path / "many.nml").write_text(text)
+    ended = run("--output", ".", "--set", "solver.starts=1", "many.nml", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    rows = package.read_campaign(tmp_path / "many.rattle")
+    page = tmp_path / "page.html"
+    assert call_script("report.py", rows.path, "--output", page).returncode == 0
+    summary, said = package.read_summary(tmp_path / "many.summary.nml"), read_page(page).words
+    log = (tmp_path / "many.log").read_text()
+    if record == "'verdict'":
+        assert "closure_range" not in rows and "scenes_extrapolated_in_this_run" not in summary
+        assert "extrapolated" not in log
+        assert "Whether the film is extrapolated beyond its closure was not recorded (closure_range)." in said
+        return
+    alone = [package.run(GEAR, set={"load.force_scale": scale}).summary for scale in rows["load.force_scale"]]
+    outside = [summary["closure_range"] == "outside" for summary in alone]
+    assert {True, False} == set(outside) and (rows["closure_range"] == outside).all()
+    count = sum(outside)
+    assert summary["scenes_extrapolated_in_this_run"] == count
+    words = f"is extrapolated beyond what its closure is fitted to in {count} of 3 scenes (closure_range); "
+    assert f"{words}film.model = 'automatic' solves these in nodes" in log and words in ended.stdout
+    assert f"In {count} scenes the film is extrapolated: " in said and "film.model = 'automatic'" in said
+    assert "is not the one" not in said
 
 
 HELD = """&contact radius = 0.0136, length = 0.0098, stiffness = 1.37e8 /

@@ -62,6 +62,7 @@ LOUDEST = {
     "rattle_class": "loudest_class",
     "film_force_rms": "loudest_film_force_rms",
 }
+OUTSIDE = 1  # code of closure_range
 SEVERAL_HATCH = 3 * "x"
 MICROMETRES = "\N{MICRO SIGN}m"
 
@@ -169,7 +170,9 @@ def verdict_flags(campaign: Campaign) -> np.ndarray:
 
 
 def where_law_fails(campaign: Campaign) -> tuple[np.ndarray, str] | None:
-    """Scenes whose film law does not fit their regime, and words for that; None if not recorded."""
+    """Scenes whose closure is extrapolated or whose law does not fit their regime; None if not recorded."""
+    if "closure_range" in campaign and np.isfinite(campaign["closure_range"]).any():
+        return campaign["closure_range"] == OUTSIDE, "film is extrapolated"
     if "law_contradicted" in campaign:
         return campaign["law_contradicted"] == 1.0, "film law does not fit"
     if "film_regime" in campaign:

@@ -27,6 +27,11 @@ DRAWN = {
     "verified": "Whether the class is verified: a second solution with a tighter tolerance agrees.",
 }
 MOST_SEEN = 3
+EXTRAPOLATED = (
+    "In {count} scenes the film is extrapolated: their loads, oil or pressures are beyond what its closure "
+    "is fitted to."
+)
+INSTEAD = " film.model = 'automatic' solves these in nodes, as 'resolved' does a single scene."
 SURE = "All {} are numerically verified."
 # The numbers that everybody should see beside the shares: columns, which end is worst, and words.
 ENDS = (
@@ -168,13 +173,18 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
         )
     else:
         yield "Whether the classes are the same when the scenes are solved again, tighter, was not recorded."
-    if "law_contradicted" in campaign:
+    if "closure_range" in campaign and np.isfinite(campaign["closure_range"]).any():
+        count = int((campaign["closure_range"][campaign.done] == look.OUTSIDE).sum())
+        yield EXTRAPOLATED.format(count=count) + ("" if "film_model" in campaign or not count else INSTEAD)
+    elif "law_contradicted" in campaign:
         count = int((campaign["law_contradicted"][campaign.done] == 1.0).sum())
         scenes = counts.counted(count, "scene")
         yield f"In {scenes} the film law is not the one of the regime that the motion reaches."
     elif "film_regime" in campaign:
         regimes = counted(campaign, "film_regime").most_common()
         yield f"Regime of the film: {', '.join(f'{name} in {count}' for name, count in regimes)}."
+    elif str(campaign.input.get("film", {}).get("law")).strip() == "elastohydrodynamic":
+        yield "Whether the film is extrapolated beyond its closure was not recorded (closure_range)."
     for name, sentence in (
         (
             "model_limit",
@@ -253,7 +263,8 @@ def caption(sections: Sequence[Section], column: str) -> str:
             parts.append("Lines: film force on the bearings [N rms].")
         failing = [look.where_law_fails(one.campaign) for one in sections]
         if any(found is not None and found[0].any() for found in failing):
-            parts.append("Beyond the green line, on the side of its ticks, the film law does not hold.")
+            words = dict.fromkeys(found[1] for found in failing if found is not None)
+            parts.append(f"Beyond the green line, on the side of its ticks, the {' or '.join(words)}.")
     return " ".join(parts)
 
 
