@@ -263,8 +263,8 @@ def caption(sections: Sequence[Section], column: str) -> str:
             parts.append("Lines: film force on the bearings [N rms].")
         failing = [look.where_law_fails(one.campaign) for one in sections]
         if any(found is not None and found[0].any() for found in failing):
-            words = dict.fromkeys(found[1] for found in failing if found is not None)
-            parts.append(f"Beyond the green line, on the side of its ticks, the {' or '.join(words)}.")
+            fails = dict.fromkeys(found[1] for found in failing if found is not None)
+            parts.append(f"Beyond the green line, on the side of its ticks, the {' or '.join(fails)}.")
     return " ".join(parts)
 
 
