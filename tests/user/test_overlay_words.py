@@ -156,8 +156,8 @@ def test_words_of_several_sweeps(solved, run, repository, tmp_path):
             f"idle from {results[0].input['spectrum']['idle_harmonics']} harmonics on",
             "Stiffness of the teeth $k$ [N/m]",
             *(f"{result.scene_name}, {film_of(result.input)}" for result in results),
-            "increasing",
-            "decreasing" if -1.0 in ways else None,
+            "up",
+            "down" if -1.0 in ways else None,
         ],
     )
 

@@ -305,7 +305,8 @@ def sentences_on_motion(summary: Reported, given: Mapping[str, Any]) -> tuple[li
     }
     found += [words for name, words in regimes.items() if summary["film_regime"] == name]
     silent += [words for name, words in regimes.items() if summary["film_regime"] != name]
-    found.append(f"The window is the last {summary['window_periods']} periods of the force.")
+    periods = summary["window_periods"]
+    found.append(f"The window is the last {'period' if periods == 1 else f'{periods} periods'} of the force.")
     if len(summary["harmonics"]) > 12:
         found.append(f"The summary lists {len(summary['harmonics'])} of them.")
     return found, silent
