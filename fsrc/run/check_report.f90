@@ -132,7 +132,7 @@ contains
    end function law_advice
 
    !> The largest load to be expected, and the film law that it asks for. Where the force lifts the tooth off its flank it is that
-   !> of an impact without oil, named so, which no impact through oil reaches.
+   !> of an impact without oil, an upper bound.
    pure function largest_load_advice(scene, exact, thinner) result(line)
       type(scene_t), intent(in) :: scene
       !> It with its Reynolds iso-viscous film

@@ -1,7 +1,7 @@
 !> What an irregular motion amounts to over the periods that it was followed, and how far that can be trusted: standard errors by
 !> batch means (fsrc/THEORY.md, section 11).
 !>
-!> The periods are parted into batches, so long that what one amounts to says nothing of the next. Leaving each batch out in turn
+!> The periods are parted into batches, so long that one is not correlated with the next. Leaving each batch out in turn
 !> shows by how much any number of all of them is off (jackknife), also one that is no mean itself, such as a root or a ratio.
 module irregular_statistics
    use kinds, only: dp

@@ -107,7 +107,7 @@ contains
       !> and where absent, those that come again from period to period
       logical, intent(in), optional :: by_power
       real(dp), dimension(record%multiples) :: varying, repeating, harmonics
-      !> Share of the power beyond the highest multiple that makes no odds, and share of the highest quarter off the harmonics below
+      !> Share of the power beyond the highest multiple that is neglected, and share of the highest quarter off the harmonics below
       !> which a motion repeats so well that its impacts come in time: it grows with the square of the order at most
       real(dp), parameter :: negligible = 1.0e-3_dp, repeating_share = 1.0e-5_dp
       real(dp) :: mean, periods, power, varying_fraction, irregular_fraction, share_repeating

@@ -103,7 +103,7 @@ contains
 
       verification%exists = .true.
       reached = tight_accuracy
-      ! Other films are what the first one leaves of the backlash, whose last digit is a share of a thin one.
+      ! Other films are the backlash less the first one: its last digit is a share of a thin film.
       do contact = 2, size(films, 2)
          reached = max(reached, epsilon(1.0_dp)*tight_extremes%highest(seen_films(1))%value/ &
                        max(tiny(1.0_dp), tight_extremes%lowest(seen_films(contact))%value))
