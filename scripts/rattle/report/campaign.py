@@ -8,11 +8,12 @@ from functools import partial
 
 import numpy as np
 
-from rattle import counts, rerun
+from rattle import rerun
 from rattle.campaign_plan import GEAR, GRID
 from rattle.campaign_result import Campaign
 from rattle.campaign_section import Section, new_section
 from rattle.codes import QUANTITIES, spoken, word, words_of
+from rattle.counts import counted
 from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, campaign_slice
 from rattle.report import motion, onset, page
@@ -28,8 +29,7 @@ DRAWN = {
 }
 MOST_SEEN = 3
 EXTRAPOLATED = (
-    "In {count} scenes the film is extrapolated: their loads, oil or pressures are beyond what its closure "
-    "is fitted to."
+    "In {scenes} the film is extrapolated: loads, oil or pressures are beyond what its closure is fitted to."
 )
 INSTEAD = " film.model = 'automatic' solves these in nodes, as 'resolved' does a single scene."
 SURE = "All {} are numerically verified."
@@ -47,7 +47,7 @@ EXTRA = ("rattle_class", "film_regime", "verified")
 
 def verdict(campaign: Campaign) -> list[str]:
     """Where impacts begin and where they are worst; where no verdict is recorded the classes that occur."""
-    classes = [name for name, _ in counted(campaign, "rattle_class").most_common()]
+    classes = [name for name, _ in numbers_of_words(campaign, "rattle_class").most_common()]
     words = onset.headline(campaign) or look.capital(", ".join(classes)) or "No class"
     complete = campaign.done.all() and not campaign.failed.any()
     every = (
@@ -78,7 +78,7 @@ def sure_in_short(campaign: Campaign) -> str:
 
 
 def meanings(campaign: Campaign) -> list[str]:
-    counts = counted(campaign, "rattle_class")
+    counts = numbers_of_words(campaign, "rattle_class")
     return [motion.class_meanings(name for name, _ in counts.most_common())] if counts else []
 
 
@@ -89,7 +89,7 @@ def numbers(campaign: Campaign) -> list[str]:
     done = int(campaign.done.sum())
     rows = [["Scenes", str(done)], ["of these failed", str(int(campaign.failed.sum()))]]
     for column in ("verdict", "rattle_class"):
-        for name, count in counted(campaign, column).most_common():
+        for name, count in numbers_of_words(campaign, column).most_common():
             rows.append([look.capital(name), look.share(count, done)])
         if len(rows) > 2:
             break
@@ -141,13 +141,13 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
     if "verdict" in campaign:
         shares = [
             f"{name} in {count} ({look.share(count, done)})"
-            for name, count in counted(campaign, "verdict").most_common()
+            for name, count in numbers_of_words(campaign, "verdict").most_common()
         ]
         yield f"Verdict: {', '.join(shares)}." if shares else "No scene has a verdict."
     if "motions" in campaign:
         several = int((campaign.done & (campaign["motions"] > 1.0)).sum())
         yield (
-            f"{counts.counted(several, 'scene has', 'scenes have')} several motions: numbers are those of "
+            f"{counted(several, 'scene has', 'scenes have')} several motions: numbers are those of "
             "the motion from rest, maps of verdict and class show the loudest and hatch such scenes "
             "crosswise."
         )
@@ -156,7 +156,7 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
         others = int((flags == 0.0).sum())
         are = "is another" if others == 1 else "are others"
         yield f"Solved again, tighter, {others} of {flags.size} verdicts {are}."
-    classes = counted(campaign, "rattle_class")
+    classes = numbers_of_words(campaign, "rattle_class")
     if classes:
         shares = [f"{name} in {count} ({look.share(count, done)})" for name, count in classes.most_common()]
         yield f"Class of the motion: {', '.join(shares)}."
@@ -167,7 +167,7 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
     if "verified" in campaign:
         verified, lacking = verifications(campaign)
         yield (
-            f"The class is verified in {counts.counted(verified, 'scene')}: solved again, tighter, it is the "
+            f"The class is verified in {counted(verified, 'scene')}: solved again, tighter, it is the "
             "same, or both halves of an irregular motion agree. "
             f"{lacking} of {verified + lacking} scenes {'is' if lacking == 1 else 'are'} not verified."
         )
@@ -175,13 +175,15 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
         yield "Whether the classes are the same when the scenes are solved again, tighter, was not recorded."
     if "closure_range" in campaign and np.isfinite(campaign["closure_range"]).any():
         count = int((campaign["closure_range"][campaign.done] == look.OUTSIDE).sum())
-        yield EXTRAPOLATED.format(count=count) + ("" if "film_model" in campaign or not count else INSTEAD)
+        yield EXTRAPOLATED.format(scenes=counted(count, "scene")) + (
+            "" if "film_model" in campaign or not count else INSTEAD
+        )
     elif "law_contradicted" in campaign:
         count = int((campaign["law_contradicted"][campaign.done] == 1.0).sum())
-        scenes = counts.counted(count, "scene")
+        scenes = counted(count, "scene")
         yield f"In {scenes} the film law is not the one of the regime that the motion reaches."
     elif "film_regime" in campaign:
-        regimes = counted(campaign, "film_regime").most_common()
+        regimes = numbers_of_words(campaign, "film_regime").most_common()
         yield f"Regime of the film: {', '.join(f'{name} in {count}' for name, count in regimes)}."
     elif str(campaign.input.get("film", {}).get("law")).strip() == "elastohydrodynamic":
         yield "Whether the film is extrapolated beyond its closure was not recorded (closure_range)."
@@ -199,7 +201,7 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
     ):
         if name in campaign:
             count = int((campaign[name][campaign.done] >= 1.0).sum())
-            yield sentence.format(scenes=counts.counted(count, "scene"))
+            yield sentence.format(scenes=counted(count, "scene"))
 
 
 def verifications(campaign: Campaign) -> tuple[int, int]:
@@ -208,7 +210,7 @@ def verifications(campaign: Campaign) -> tuple[int, int]:
     return int((flags == 1.0).sum()), int((flags == 0.0).sum())
 
 
-def counted(campaign: Campaign, column: str) -> Counter[str]:
+def numbers_of_words(campaign: Campaign, column: str) -> Counter[str]:
     """How often each word of a column of codes is, over the scenes that are done and have one."""
     if column not in campaign:
         return Counter()
